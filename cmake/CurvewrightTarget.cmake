@@ -1,0 +1,20 @@
+# What every target of ours shares: the language level, the warnings, the sanitizers. Nothing here is global.
+
+add_library(curvewright_options INTERFACE)
+target_compile_features(curvewright_options INTERFACE cxx_std_20)
+target_include_directories(curvewright_options INTERFACE ${PROJECT_SOURCE_DIR})
+if(CURVEWRIGHT_SANITIZER)
+    target_compile_options(curvewright_options INTERFACE -fsanitize=${CURVEWRIGHT_SANITIZER} -fno-omit-frame-pointer
+                                                         -fno-sanitize-recover=undefined)
+    target_link_options(curvewright_options INTERFACE -fsanitize=${CURVEWRIGHT_SANITIZER})
+endif()
+
+add_library(curvewright_warnings INTERFACE)
+target_compile_options(curvewright_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+                                                      -Woverloaded-virtual -Wcast-qual -Wimplicit-fallthrough)
+
+# curvewright_configure(TARGET): warnings, language level and sanitizers for one of our targets.
+function(curvewright_configure target)
+    target_link_libraries(${target} PUBLIC curvewright_options PRIVATE curvewright_warnings)
+    set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
+endfunction()

@@ -1,0 +1,45 @@
+#include "core/base/parallel.h"
+
+#include <algorithm>
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
+
+namespace curvewright {
+
+void set_thread_count(int threads) {
+    static std::unique_ptr<tbb::global_control> control;
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
+    const auto count =
+        threads > 0 ? static_cast<std::size_t>(threads) : std::size_t{std::max(1u, std::thread::hardware_concurrency())};
+    control.reset();
+    control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
+}
+
+void parallel_for(std::size_t count, std::size_t grain, const TaskContext& context, std::string_view phase,
+                  const std::function<void(std::size_t, std::size_t)>& body) {
+    if (count == 0) return;
+    const std::size_t step = std::max<std::size_t>(1, grain);
+    const std::size_t pieces = (count + step - 1) / step;
+    const auto caller = std::this_thread::get_id();
+    std::atomic<std::size_t> done = 0;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, pieces, 1), [&](const auto& range) {
+        for (std::size_t piece = range.begin(); piece != range.end(); ++piece) {
+            context.check();
+            body(piece * step, std::min(count, (piece + 1) * step));
+            const std::size_t finished = ++done;
+            // Only the calling thread reports, so that callbacks need no lock and stay on the thread they expect.
+            if (!phase.empty() && std::this_thread::get_id() == caller)
+                context.report(phase, static_cast<double>(finished) / static_cast<double>(pieces));
+        }
+    });
+    context.check();
+}
+
+}  // namespace curvewright

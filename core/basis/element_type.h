@@ -1,0 +1,33 @@
+#pragma once
+
+#include <compare>
+#include <string>
+
+namespace curvewright {
+
+/// Shape of a reference element. "Prism" is VTK's wedge.
+enum class Shape { vertex, line, triangle, quadrilateral, tetrahedron, hexahedron, prism, pyramid };
+
+inline constexpr int max_order = 10;
+
+/// A Lagrange element on equispaced nodes: shape and order (polynomial degree), 1 to max_order.
+struct ElementType {
+    Shape shape = Shape::vertex;
+    int order = 1;
+    friend auto operator<=>(const ElementType&, const ElementType&) = default;
+};
+
+/// Dimension of the reference element, 0 to 3.
+int dimension(Shape shape);
+/// Number of corners.
+int corner_count(Shape shape);
+/// Number of nodes of the full (not serendipity) Lagrange element; pyramids have sum of (k+1)^2, k = 0..order.
+int node_count(ElementType type);
+bool is_simplex(Shape shape);
+/// Singular English name ("triangle"); plural with count ("1 triangle", "3 prisms").
+std::string name(Shape shape);
+std::string counted_name(Shape shape, long count);
+/// "P3 triangle".
+std::string name(ElementType type);
+
+}  // namespace curvewright

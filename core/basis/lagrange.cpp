@@ -1,0 +1,118 @@
+#include "core/basis/lagrange.h"
+
+#include <vector>
+
+#include "core/base/error.h"
+#include "core/basis/reference_element.h"
+
+namespace curvewright {
+namespace {
+
+/// Silvester's factor P_m(t) = prod_{k<m} (p t - k) / (k + 1) and its derivative.
+struct Factor {
+    double value = 1.0;
+    double derivative = 0.0;
+};
+
+std::vector<Factor> silvester_factors(int order, double t) {
+    std::vector<Factor> factors(order + 1);
+    for (int m = 1; m <= order; ++m) {
+        const double scale = 1.0 / m;
+        const double linear = (order * t - (m - 1)) * scale;
+        factors[m].value = factors[m - 1].value * linear;
+        factors[m].derivative = factors[m - 1].derivative * linear + factors[m - 1].value * order * scale;
+    }
+    return factors;
+}
+
+/// Values and gradients of all functions of a simplex lattice (dimension 1 to 3) at one point.
+void simplex_functions(int order, int dim, const std::vector<LatticePoint>& lattice, const double* x, double* value,
+                       std::array<double, 3>* gradient) {
+    std::array<std::vector<Factor>, 4> factors;
+    double rest = 1.0;
+    for (int d = 0; d < dim; ++d) {
+        rest -= x[d];
+        factors[d + 1] = silvester_factors(order, x[d]);
+    }
+    factors[0] = silvester_factors(order, rest);
+    for (std::size_t node = 0; node < lattice.size(); ++node) {
+        std::array<Factor, 4> f;
+        int left = order;
+        for (int d = 0; d < dim; ++d) {
+            left -= lattice[node][d];
+            f[d + 1] = factors[d + 1][lattice[node][d]];
+        }
+        f[0] = factors[0][left];
+        std::array<double, 4> partial{};  // derivative along each barycentric coordinate
+        double product = 1.0;
+        for (int i = 0; i <= dim; ++i) product *= f[i].value;
+        for (int i = 0; i <= dim; ++i) {
+            partial[i] = f[i].derivative;
+            for (int j = 0; j <= dim; ++j)
+                if (j != i) partial[i] *= f[j].value;
+        }
+        value[node] = product;
+        for (int d = 0; d < dim; ++d) gradient[node][d] = partial[d + 1] - partial[0];
+    }
+}
+
+/// How an element's lattice is a product of simplices: the reference axes of each factor.
+std::vector<std::vector<int>> tensor_factors(Shape shape) {
+    switch (shape) {
+        case Shape::line: return {{0}};
+        case Shape::triangle: return {{0, 1}};
+        case Shape::tetrahedron: return {{0, 1, 2}};
+        case Shape::quadrilateral: return {{0}, {1}};
+        case Shape::hexahedron: return {{0}, {1}, {2}};
+        case Shape::prism: return {{0, 1}, {2}};
+        case Shape::vertex:
+        case Shape::pyramid: break;
+    }
+    return {};
+}
+
+}  // namespace
+
+BasisTable lagrange_basis(ElementType type, const Eigen::Ref<const Eigen::MatrixX3d>& points) {
+    if (type.shape == Shape::pyramid)
+        throw Unsupported("The shape functions of pyramids are rational and not supported.");
+    const ReferenceElement& element = reference_element(type);
+    const int nodes = element.node_count();
+    BasisTable table;
+    table.values.setOnes(points.rows(), nodes);
+    for (int d = 0; d < element.dimension; ++d) table.gradients[d].setOnes(points.rows(), nodes);
+
+    for (const auto& axes : tensor_factors(type.shape)) {
+        const int dim = static_cast<int>(axes.size());
+        std::vector<LatticePoint> lattice(nodes);
+        for (int node = 0; node < nodes; ++node)
+            for (int d = 0; d < dim; ++d) lattice[node][d] = element.lattice[node][axes[d]];
+        std::vector<double> value(nodes);
+        std::vector<std::array<double, 3>> gradient(nodes);
+        for (Eigen::Index row = 0; row < points.rows(); ++row) {
+            std::array<double, 3> x{};
+            for (int d = 0; d < dim; ++d) x[d] = points(row, axes[d]);
+            simplex_functions(type.order, dim, lattice, x.data(), value.data(), gradient.data());
+            for (int node = 0; node < nodes; ++node) {
+                table.values(row, node) *= value[node];
+                for (int d = 0; d < element.dimension; ++d) {
+                    double factor = value[node];
+                    for (int local = 0; local < dim; ++local)
+                        if (axes[local] == d) factor = gradient[node][local];
+                    table.gradients[d](row, node) *= factor;
+                }
+            }
+        }
+    }
+    return table;
+}
+
+Eigen::MatrixX3d reference_nodes(ElementType type) {
+    const ReferenceElement& element = reference_element(type);
+    Eigen::MatrixX3d points(element.node_count(), 3);
+    for (int node = 0; node < element.node_count(); ++node)
+        for (int d = 0; d < 3; ++d) points(node, d) = static_cast<double>(element.lattice[node][d]) / type.order;
+    return points;
+}
+
+}  // namespace curvewright

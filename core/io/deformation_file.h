@@ -1,0 +1,14 @@
+#pragma once
+
+#include <filesystem>
+
+#include "core/base/task.h"
+#include "core/deform/deformation.h"
+
+namespace curvewright {
+
+/// Reads a deformation: .json (operations), .csv (node table with header tag,x,y,z), or a mesh (its nodes' positions).
+/// Throws InvalidInput that names the file, the line or the operation, what is wrong and what was expected.
+Deformation read_deformation(const std::filesystem::path& file, const TaskContext& context = {});
+
+}  // namespace curvewright

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/curved_mesh.h"
+#include "core/quality/quality.h"
+
+namespace curvewright {
+
+enum class MeshFormat { msh2, msh4, vtu, vtk };
+/// "msh2", "msh4", "vtu", "vtk".
+const char* to_string(MeshFormat format);
+
+struct ReadResult {
+    CurvedMesh mesh;
+    MeshFormat format = MeshFormat::msh4;
+    /// Things the reader passed over or repaired, one sentence each ("Section $Periodic was skipped.").
+    std::vector<std::string> notes;
+};
+
+/// Reads a mesh; the suffix tells the format: .msh (4.1, 4.0 and 2.2 ASCII, by its header), .msh.gz (the same,
+/// compressed), .vtu, .vtk.
+/// Throws InvalidInput that names file, line (text formats), what is wrong and what was expected; Unsupported for binary
+/// MSH, serendipity elements, and the like. Polls context.stop.
+ReadResult read_mesh(const std::filesystem::path& file, const TaskContext& context = {});
+
+struct WriteOptions {
+    /// Not given: the suffix tells; .msh is 4.1.
+    std::optional<MeshFormat> format;
+    /// VTU and VTK only: compressed binary instead of ASCII. (VTU is binary by default: 17 digits cost nothing there.)
+    std::optional<bool> binary;
+    /// VTU and VTK: cell arrays ScaledJacobian and Validity (0 invalid, 1 valid, 2 undecided).
+    const QualityReport* quality = nullptr;
+    /// VTU and VTK: point array Displacement = coordinates - reference. Same size as the mesh's coordinates.
+    const Coordinates* reference = nullptr;
+};
+
+/// Writes a mesh with all its cells, tags, groups and entities: to a temporary file beside the target, which takes its
+/// name only when it is complete. Throws InvalidInput if the file cannot be written or the suffix is unknown;
+/// Unsupported if the format cannot hold the mesh.
+void write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh, const WriteOptions& options = {});
+
+/// Format that a file name means; none if the suffix is unknown.
+std::optional<MeshFormat> format_of_suffix(const std::filesystem::path& file);
+
+}  // namespace curvewright

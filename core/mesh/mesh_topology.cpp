@@ -1,0 +1,187 @@
+#include "core/mesh/mesh_topology.h"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/basis/reference_element.h"
+
+namespace curvewright {
+namespace {
+
+/// A facet's sorted corner nodes (unused places -1): the key by which the elements on its two sides meet.
+struct FacetKey {
+    std::array<Index, 4> corners;
+    Facet facet;
+};
+
+}  // namespace
+
+MeshTopology::MeshTopology(MeshData data) : data_(std::move(data)) {
+    check_nodes_and_blocks();
+    number_elements();
+    find_boundary();
+}
+
+void MeshTopology::check_nodes_and_blocks() {
+    node_of_tag_.reserve(data_.node_tags.size());
+    for (Index node = 0; node < node_count(); ++node) {
+        const NodeTag tag = data_.node_tags[node];
+        if (!node_of_tag_.emplace(tag, node).second)
+            throw InvalidInput(fmt::format("Node {} occurs twice; node tags must be unique.", tag.value));
+    }
+    if (!data_.node_entities.empty() && data_.node_entities.size() != data_.node_tags.size())
+        throw InvalidInput("The entities of the nodes are as many as the nodes, or none.");
+    std::set<std::pair<int, int>> entities;
+    for (const Entity& entity : data_.entities)
+        if (!entities.emplace(entity.dimension, entity.tag).second)
+            throw InvalidInput(
+                fmt::format("Entity {} of dimension {} occurs twice.", entity.tag, entity.dimension));
+    std::vector<Index> sorted;
+    for (const ElementBlock& block : data_.blocks) {
+        if (block.type.order < 1 || block.type.order > max_order)
+            throw Unsupported(fmt::format("Element {} is of order {}; orders 1 to {} are supported.",
+                                          block.tags.empty() ? 0 : block.tags.front().value, block.type.order,
+                                          max_order));
+        const std::size_t per_element = static_cast<std::size_t>(curvewright::node_count(block.type));
+        if (block.nodes.size() != per_element * block.tags.size())
+            throw InvalidInput(fmt::format("A block of {} elements of type {} has {} nodes instead of {}.",
+                                           block.tags.size(), name(block.type), block.nodes.size(),
+                                           per_element * block.tags.size()));
+        for (std::size_t i = 0; i < block.tags.size(); ++i) {
+            const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(i * per_element);
+            sorted.assign(first, first + static_cast<std::ptrdiff_t>(per_element));
+            std::sort(sorted.begin(), sorted.end());
+            if (sorted.front() < 0 || sorted.back() >= node_count())
+                throw InvalidInput(
+                    fmt::format("Element {} refers to a node that does not exist.", block.tags[i].value));
+            const auto twin = std::adjacent_find(sorted.begin(), sorted.end());
+            if (twin != sorted.end())
+                throw InvalidInput(fmt::format("Element {} has node {} twice; its nodes must differ.",
+                                               block.tags[i].value, data_.node_tags[*twin].value));
+        }
+    }
+}
+
+void MeshTopology::number_elements() {
+    for (const ElementBlock& block : data_.blocks)
+        if (block.size() > 0) dimension_ = std::max(dimension_, curvewright::dimension(block.type.shape));
+    bool is_uniform = true;
+    for (std::size_t b = 0; b < data_.blocks.size(); ++b) {
+        const ElementBlock& block = data_.blocks[b];
+        if (block.size() == 0 || curvewright::dimension(block.type.shape) != dimension_ || dimension_ == 0) continue;
+        if (!uniform_type_) uniform_type_ = block.type;
+        is_uniform = is_uniform && *uniform_type_ == block.type;
+        order_ = std::max(order_, block.type.order);
+        for (Index i = 0; i < block.size(); ++i) {
+            element_block_.push_back(static_cast<Index>(b));
+            element_in_block_.push_back(i);
+        }
+    }
+    if (!is_uniform) uniform_type_.reset();
+    element_of_tag_.reserve(element_block_.size());
+    for (Index element = 0; element < element_count(); ++element)
+        if (!element_of_tag_.emplace(element_tag(element), element).second)
+            throw InvalidInput(
+                fmt::format("Element {} occurs twice; element tags must be unique.", element_tag(element).value));
+}
+
+void MeshTopology::find_boundary() {
+    std::vector<FacetKey> keys;
+    for (Index element = 0; element < element_count(); ++element) {
+        const auto nodes = element_nodes(element);
+        const auto& facets = reference_element(element_type(element)).facets;
+        for (std::size_t local = 0; local < facets.size(); ++local) {
+            FacetKey key{{-1, -1, -1, -1}, {element, static_cast<int>(local)}};
+            const int corners = corner_count(facets[local].type.shape);
+            for (int i = 0; i < corners; ++i) key.corners[i] = nodes[facets[local].nodes[i]];
+            std::sort(key.corners.begin(), key.corners.end());
+            keys.push_back(key);
+        }
+    }
+    std::sort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) { return a.corners < b.corners; });
+    for (std::size_t i = 0; i < keys.size();) {
+        std::size_t end = i + 1;
+        while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
+        if (end == i + 1) boundary_facets_.push_back(keys[i].facet);
+        i = end;
+    }
+    std::sort(boundary_facets_.begin(), boundary_facets_.end(), [](const Facet& a, const Facet& b) {
+        return std::pair(a.element, a.local) < std::pair(b.element, b.local);
+    });
+
+    role_.assign(static_cast<std::size_t>(node_count()), Role::unused);
+    for (Index element = 0; element < element_count(); ++element)
+        for (Index node : element_nodes(element)) role_[node] = Role::interior;
+    for (const Facet& facet : boundary_facets_)
+        for (Index node : facet_nodes(facet)) role_[node] = Role::boundary;
+    for (Index node = 0; node < node_count(); ++node) {
+        if (role_[node] == Role::boundary) boundary_nodes_.push_back(node);
+        if (role_[node] == Role::interior) interior_nodes_.push_back(node);
+    }
+}
+
+std::optional<Index> MeshTopology::find_node(NodeTag tag) const {
+    const auto found = node_of_tag_.find(tag);
+    if (found == node_of_tag_.end()) return std::nullopt;
+    return found->second;
+}
+
+std::optional<Index> MeshTopology::find_element(ElementTag tag) const {
+    const auto found = element_of_tag_.find(tag);
+    if (found == element_of_tag_.end()) return std::nullopt;
+    return found->second;
+}
+
+ElementTag MeshTopology::element_tag(Index element) const {
+    return data_.blocks[element_block_[element]].tags[element_in_block_[element]];
+}
+
+std::span<const Index> MeshTopology::element_nodes(Index element) const {
+    const ElementBlock& block = data_.blocks[element_block_[element]];
+    const auto count = static_cast<std::size_t>(curvewright::node_count(block.type));
+    return std::span(block.nodes).subspan(static_cast<std::size_t>(element_in_block_[element]) * count, count);
+}
+
+std::vector<Index> MeshTopology::facet_nodes(Facet facet) const {
+    const auto nodes = element_nodes(facet.element);
+    std::vector<Index> result;
+    for (int node : reference_element(element_type(facet.element)).facets[facet.local].nodes)
+        result.push_back(nodes[node]);
+    return result;
+}
+
+std::optional<std::vector<Index>> MeshTopology::find_group_nodes(std::string_view name) const {
+    std::vector<bool> in_group(static_cast<std::size_t>(node_count()), false);
+    bool found = false;
+    for (const PhysicalGroup& group : data_.groups) {
+        if (display_name(group) != name) continue;
+        found = true;
+        std::set<int> entities;
+        for (const Entity& entity : data_.entities)
+            if (entity.dimension == group.dimension &&
+                std::find(entity.physical_tags.begin(), entity.physical_tags.end(), group.tag) !=
+                    entity.physical_tags.end())
+                entities.insert(entity.tag);
+        for (const ElementBlock& block : data_.blocks)
+            if (curvewright::dimension(block.type.shape) == group.dimension && entities.contains(block.entity_tag))
+                for (Index node : block.nodes) in_group[node] = true;
+    }
+    if (!found) {
+        if (name == "boundary" || name == "all_boundary") return boundary_nodes_;
+        if (name != "all") return std::nullopt;
+        in_group.assign(in_group.size(), true);
+    }
+    std::vector<Index> nodes;
+    for (Index node = 0; node < node_count(); ++node)
+        if (in_group[node]) nodes.push_back(node);
+    return nodes;
+}
+
+std::string MeshTopology::display_name(const PhysicalGroup& group) {
+    return group.name.empty() ? fmt::format("{}:{}", group.dimension, group.tag) : group.name;
+}
+
+}  // namespace curvewright

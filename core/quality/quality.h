@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "core/base/task.h"
+#include "core/mesh/curved_mesh.h"
+
+namespace curvewright {
+
+/// What is proved about the sign of an element's Jacobian determinant J.
+enum class Validity {
+    valid,      ///< J > 0 everywhere
+    invalid,    ///< J < 0 somewhere ("tangled")
+    undecided,  ///< neither could be proved: the subdivision budget ran out, or min J is zero up to rounding
+};
+/// "valid", "invalid", "undecided".
+const char* to_string(Validity validity);
+
+/// Sign of J that most of the mesh has (by signed area or volume of the straight-sided elements).
+enum class Orientation {
+    positive,  ///< J > 0 expected
+    negative,  ///< every element is numbered the other way round: J < 0 expected. Not tangling; see flip_orientation.
+    mixed,     ///< some straight-sided elements are positive, some negative; judged as positive unless most are negative
+};
+const char* to_string(Orientation orientation);
+
+struct QualityOptions {
+    /// The bounds of min J and of max J are refined until they are this close, relative to max |J| of the element.
+    double tolerance = 2.5e-4;
+    /// Bisections of the reference element per bound before the element is called undecided.
+    int max_subdivisions = 4000;
+};
+
+/// Certified quality of one element. J is that of the mesh's orientation: positive in a valid element.
+struct ElementQuality {
+    /// min J / |max J| from values that J attains; 1 for a straight-sided simplex, <= 0 for a tangled one.
+    double scaled_jacobian = 1.0;
+    /// Proved bounds: min_lower <= min J <= min_upper, max_lower <= max J <= max_upper (rounding included).
+    double min_lower = 0.0, min_upper = 0.0, max_lower = 0.0, max_upper = 0.0;
+    Validity validity = Validity::undecided;
+    /// Reference coordinates where J attains min_upper.
+    std::array<double, 3> worst_point{};
+};
+
+struct QualitySummary {
+    double min = 0.0, mean = 0.0, max = 0.0;  ///< of the scaled Jacobian, over all elements
+    Index valid = 0, invalid = 0, undecided = 0;
+    Index elements() const { return valid + invalid + undecided; }
+};
+
+struct QualityReport {
+    std::vector<ElementQuality> elements;  ///< one per element, in the order of the mesh
+    QualitySummary summary;
+    Orientation orientation = Orientation::positive;
+
+    /// Elements by ascending scaled Jacobian (ties by index), at most `count`.
+    std::vector<Index> worst(std::size_t count) const;
+};
+
+/// Throws Unsupported unless every element is a triangle in a plane of constant z or a tetrahedron (named otherwise).
+void require_assessable(const CurvedMesh& mesh);
+
+/// Orientation of a mesh of simplices. Throws like require_assessable.
+Orientation find_orientation(const CurvedMesh& mesh);
+/// +1 or -1: the sign that J is multiplied with.
+double orientation_sign(Orientation orientation, const CurvedMesh& mesh);
+
+/// The same elements numbered the other way round (J changes its sign); triangles and tetrahedra.
+CurvedMesh flip_orientation(const CurvedMesh& mesh);
+
+/// Certified scaled Jacobian of every element: J in Bernstein-Bézier form, adaptive subdivision (Johnen, Remacle,
+/// Geuzaine, "Geometrical validity of curvilinear finite elements", J. Comput. Phys. 233, 2013). Multi-threaded.
+/// Throws Unsupported (see require_assessable) and Cancelled.
+QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options = {},
+                             const TaskContext& context = {});
+
+/// Equal bins over [lower, upper]; values outside count in the first and last bin.
+struct Histogram {
+    double lower = 0.0, upper = 1.0;
+    std::vector<Index> counts;
+    double bin_width() const { return (upper - lower) / static_cast<double>(counts.size()); }
+    int bin_of(double value) const;
+};
+Histogram make_histogram(const QualityReport& report, double lower, double upper, int bins);
+
+}  // namespace curvewright

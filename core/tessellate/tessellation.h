@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/mesh/curved_mesh.h"
+
+namespace curvewright {
+
+struct TessellationOptions {
+    /// Largest distance between a curved side and its chords, relative to the diagonal of the mesh's bounding box.
+    double chord_tolerance = 2e-4;
+    /// Bounds of the number of chords per side of a curved element; straight elements always get 1.
+    int min_subdivisions = 4, max_subdivisions = 24;
+};
+
+/// Straight pieces that draw a curved mesh: its surface as triangles and its element edges as polylines. In 2D the surface
+/// is every element, in 3D the faces that only one of the visible elements has. The connectivity is made once; move()
+/// follows new coordinates. Points are single precision, relative to origin().
+class Tessellation {
+  public:
+    /// visible: one flag per element; empty = all. Any shapes and orders; cells below the mesh's dimension are not drawn.
+    explicit Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visible = {},
+                          const TessellationOptions& options = {});
+
+    /// Recomputes all points for the same mesh with other coordinates.
+    void move(const Coordinates& coordinates);
+
+    /// Subtracted from all points: the centre of the bounding box at construction.
+    const Eigen::RowVector3d& origin() const { return origin_; }
+
+    // Surface. Each face has points of its own, so that its colour and normals are its own.
+    const std::vector<float>& surface_points() const { return surface_points_; }    ///< 3 per point: x, y, z
+    const std::vector<float>& surface_normals() const { return surface_normals_; }  ///< 3 per point, unit, outward in 3D
+    const std::vector<Index>& triangles() const { return triangles_; }              ///< 3 per triangle: points
+    const std::vector<Index>& triangle_elements() const { return triangle_elements_; }  ///< per triangle: its element
+
+    // Edges: every edge of the surface once.
+    const std::vector<float>& edge_points() const { return edge_points_; }  ///< 3 per point
+    /// Polyline k is the points line_offsets()[k] .. line_offsets()[k+1] - 1.
+    const std::vector<Index>& line_offsets() const { return line_offsets_; }
+    /// Per polyline: an element that has it.
+    const std::vector<Index>& line_elements() const { return line_elements_; }
+    /// Per polyline: 1 if it lies on one drawn 2D element only (2D: on the mesh's boundary), else 0.
+    const std::vector<std::uint8_t>& line_is_boundary() const { return line_is_boundary_; }
+
+    /// Nodes of the drawn faces, ascending.
+    const std::vector<Index>& nodes() const { return nodes_; }
+
+  private:
+    struct Patch {
+        Index element = 0;
+        ElementType type;           ///< of the face or edge
+        int subdivisions = 1;
+        Index first_node = 0;       ///< in patch_nodes_
+        Index first_point = 0;      ///< in the points of its kind
+    };
+
+    Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+    std::vector<Index> patch_nodes_;
+    std::vector<Patch> faces_, edges_;
+    std::vector<float> surface_points_, surface_normals_, edge_points_;
+    std::vector<Index> triangles_, triangle_elements_, line_offsets_, line_elements_, nodes_;
+    std::vector<std::uint8_t> line_is_boundary_;
+};
+
+}  // namespace curvewright
