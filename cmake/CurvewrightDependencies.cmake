@@ -9,13 +9,14 @@ find_package(muparser REQUIRED)
 find_package(ZLIB REQUIRED)
 find_package(Threads REQUIRED)
 
+if(CURVEWRIGHT_BUILD_DESKTOP)
+    find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGLWidgets Svg)
+endif()
+
 # Components named one by one: the whole of VTK costs minutes of link and start-up time.
 find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecutionModel CommonColor RenderingCore
              RenderingOpenGL2 RenderingAnnotation RenderingFreeType InteractionStyle IOLegacy IOXML IOImage)
 
-if(CURVEWRIGHT_BUILD_DESKTOP)
-    find_package(Qt6 6.4 REQUIRED COMPONENTS Core Gui Widgets OpenGLWidgets Svg)
-endif()
 if(CURVEWRIGHT_BUILD_TESTS)
     find_package(GTest REQUIRED)
     if(CURVEWRIGHT_BUILD_DESKTOP)

@@ -12,6 +12,10 @@ endif()
 add_library(curvewright_warnings INTERFACE)
 target_compile_options(curvewright_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
                                                       -Woverloaded-virtual -Wcast-qual -Wimplicit-fallthrough)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+    # GCC 12 sees overflows in its own std::string and std::vector (GCC bugs 105329, 105762).
+    target_compile_options(curvewright_warnings INTERFACE -Wno-restrict -Wno-stringop-overflow)
+endif()
 
 # curvewright_configure(TARGET): warnings, language level and sanitizers for one of our targets.
 function(curvewright_configure target)

@@ -1,1 +1,99 @@
-// Being written.
+#include "core/io/mesh_io.h"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/io/atomic_file.h"
+#include "core/io/msh_io.h"
+#include "core/io/vtk_io.h"
+
+namespace curvewright {
+namespace {
+
+constexpr const char* known_suffixes = ".msh, .msh.gz, .vtu or .vtk";
+
+std::string lower(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+    return text;
+}
+
+bool is_compressed(const std::filesystem::path& file) {
+    return lower(file.extension().string()) == ".gz";
+}
+
+[[noreturn]] void throw_unknown_suffix(const std::filesystem::path& file, const char* expected) {
+    const std::string suffix = file.extension().string();
+    throw InvalidInput(file.string(), 0,
+                       suffix.empty() ? fmt::format("the name has no suffix; {} was expected.", expected)
+                                      : fmt::format("unknown suffix \"{}\"; {} was expected.", suffix, expected));
+}
+
+}  // namespace
+
+const char* to_string(MeshFormat format) {
+    switch (format) {
+        case MeshFormat::msh2:
+            return "msh2";
+        case MeshFormat::msh4:
+            return "msh4";
+        case MeshFormat::vtu:
+            return "vtu";
+        case MeshFormat::vtk:
+            return "vtk";
+    }
+    return "";
+}
+
+std::optional<MeshFormat> format_of_suffix(const std::filesystem::path& file) {
+    const std::string suffix = lower(file.extension().string());
+    if (suffix == ".gz" && lower(file.stem().extension().string()) == ".msh") return MeshFormat::msh4;
+    if (suffix == ".msh") return MeshFormat::msh4;
+    if (suffix == ".vtu") return MeshFormat::vtu;
+    if (suffix == ".vtk") return MeshFormat::vtk;
+    return std::nullopt;
+}
+
+ReadResult read_mesh(const std::filesystem::path& file, const TaskContext& context) {
+    context.report("reading", 0.0);
+    const auto format = format_of_suffix(file);
+    if (!format) {
+        // A wrong name is told as such rather than as a wrong suffix.
+        std::error_code ignored;
+        if (!std::filesystem::exists(file, ignored) || std::filesystem::is_directory(file, ignored))
+            read_text_file(file);
+        throw_unknown_suffix(file, known_suffixes);
+    }
+    std::string text = read_text_file(file);
+    context.check();
+    if (text.empty()) throw InvalidInput(file.string(), 0, "the file is empty; a mesh was expected.");
+    if (*format == MeshFormat::msh4) return read_msh(text, file.string(), context);
+    return read_vtk(std::move(text), file.string(), *format, context);
+}
+
+void write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh, const WriteOptions& options) {
+    if (is_compressed(file))
+        throw InvalidInput(file.string(), 0, "compressed files can be read but not written; leave out \".gz\".");
+    const auto format = options.format ? options.format : format_of_suffix(file);
+    if (!format) throw_unknown_suffix(file, ".msh, .vtu or .vtk");
+    const bool is_msh = *format == MeshFormat::msh2 || *format == MeshFormat::msh4;
+    if (is_msh && options.binary.value_or(false))
+        throw Unsupported(fmt::format("{}: binary MSH cannot be written; MSH is written as text.", file.string()));
+    if (!is_msh) {
+        AtomicFile atomic(file);
+        write_vtk(atomic.path(), file.string(), mesh, *format, options);
+        atomic.commit();
+        return;
+    }
+    std::string text;
+    try {
+        text = *format == MeshFormat::msh2 ? msh2_text(mesh) : msh4_text(mesh);
+    } catch (const Unsupported& error) {
+        throw Unsupported(fmt::format("{}: {}", file.string(), error.what()));
+    }
+    write_text_file(file, text);
+}
+
+}  // namespace curvewright

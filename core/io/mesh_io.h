@@ -23,8 +23,8 @@ struct ReadResult {
 
 /// Reads a mesh; the suffix tells the format: .msh (4.1, 4.0 and 2.2 ASCII, by its header), .msh.gz (the same,
 /// compressed), .vtu, .vtk.
-/// Throws InvalidInput that names file, line (text formats), what is wrong and what was expected; Unsupported for binary
-/// MSH, serendipity elements, and the like. Polls context.stop.
+/// Throws InvalidInput that names file, line (text formats), what is wrong and what was expected; Unsupported for
+/// binary MSH, serendipity elements, and the like. Polls context.stop.
 ReadResult read_mesh(const std::filesystem::path& file, const TaskContext& context = {});
 
 struct WriteOptions {

@@ -1,1 +1,433 @@
-// Being written.
+#include "core/io/vtk_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <unordered_set>
+
+#include <fmt/format.h>
+#include <vtkCellArray.h>
+#include <vtkCellData.h>
+#include <vtkCellTypes.h>
+#include <vtkDoubleArray.h>
+#include <vtkFieldData.h>
+#include <vtkIntArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkStringArray.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
+#include <vtkUnstructuredGrid.h>
+
+#include "core/base/error.h"
+#include "core/basis/node_ordering.h"
+#include "core/basis/reference_element.h"
+#include "core/io/mesh_entities.h"
+#include "core/io/vtk_cells.h"
+
+namespace curvewright {
+namespace {
+
+// Names of the arrays. Field data: entities as runs of (dimension, tag, number of physical tags, physical tags, number
+// of bounding entities, bounding entities); their boxes, 6 numbers each; groups as (dimension, tag); the groups' names;
+// per node (dimension, tag) of its entity, -1 for none.
+constexpr const char *node_tag_name = "NodeTag", *element_tag_name = "ElementTag", *entity_tag_name = "EntityTag";
+constexpr const char *entities_name = "CurvewrightEntities", *boxes_name = "CurvewrightEntityBoxes";
+constexpr const char *groups_name = "CurvewrightGroups", *group_names_name = "CurvewrightGroupNames";
+constexpr const char* node_entities_name = "CurvewrightNodeEntities";
+
+// ---------------------------------------------------------------------------------------------------- mesh to grid
+
+template <class Array>
+vtkSmartPointer<Array> new_array(const char* name, int components, vtkIdType tuples) {
+    auto array = vtkSmartPointer<Array>::New();
+    array->SetName(name);
+    array->SetNumberOfComponents(components);
+    array->SetNumberOfTuples(tuples);
+    return array;
+}
+
+vtkSmartPointer<vtkIntArray> int_array(const char* name, int components, const std::vector<int>& values) {
+    auto array = new_array<vtkIntArray>(name, components, static_cast<vtkIdType>(values.size()) / components);
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+void fill_points(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options) {
+    const Index count = mesh.topology().node_count();
+    vtkNew<vtkPoints> points;
+    points->SetDataTypeToDouble();
+    points->SetNumberOfPoints(count);
+    auto tags = new_array<vtkTypeInt64Array>(node_tag_name, 1, count);
+    for (Index node = 0; node < count; ++node) {
+        const auto x = mesh.coordinates().row(node);
+        points->SetPoint(node, x(0), x(1), x(2));
+        tags->SetValue(node, mesh.topology().node_tag(node).value);
+    }
+    grid.SetPoints(points);
+    grid.GetPointData()->AddArray(tags);
+    if (options.reference == nullptr) return;
+    if (options.reference->rows() != count)
+        throw InvalidInput(fmt::format("The reference positions are {}, but the mesh has {} nodes.",
+                                       options.reference->rows(), count));
+    auto displacement = new_array<vtkDoubleArray>("Displacement", 3, count);
+    for (Index node = 0; node < count; ++node)
+        for (int d = 0; d < 3; ++d)
+            displacement->SetComponent(node, d, mesh.coordinates()(node, d) - (*options.reference)(node, d));
+    grid.GetPointData()->AddArray(displacement);
+}
+
+void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options, bool is_legacy_text) {
+    const MeshTopology& topology = mesh.topology();
+    std::map<EntityKey, int> group_of_entity;
+    for (const Entity& entity : topology.entities())
+        if (!entity.physical_tags.empty())
+            group_of_entity[{entity.dimension, entity.tag}] = entity.physical_tags.front();
+    const QualityReport* quality = options.quality;
+    if (quality != nullptr && quality->elements.size() != static_cast<std::size_t>(topology.element_count()))
+        throw InvalidInput(fmt::format("The quality report is for {} elements, but the mesh has {}.",
+                                       quality->elements.size(), topology.element_count()));
+
+    vtkNew<vtkCellArray> cells;
+    vtkNew<vtkUnsignedCharArray> types;
+    const auto tags = new_array<vtkTypeInt64Array>(element_tag_name, 1, 0);
+    const auto entities = new_array<vtkIntArray>(entity_tag_name, 1, 0);
+    const auto groups = new_array<vtkIntArray>("PhysicalGroup", 1, 0);
+    const auto jacobian = new_array<vtkDoubleArray>("ScaledJacobian", 1, 0);
+    const auto validity = new_array<vtkIntArray>("Validity", 1, 0);
+    const double no_jacobian = is_legacy_text ? 1.0 : std::numeric_limits<double>::quiet_NaN();
+    std::size_t element = 0;
+    std::vector<vtkIdType> ids;
+    for (const ElementBlock& block : topology.blocks()) {
+        if (block.size() == 0) continue;
+        if (block.type.shape == Shape::pyramid && block.type.order > 1)
+            throw Unsupported(
+                fmt::format("VTK has no {}: the mesh cannot be written in this format.", name(block.type)));
+        const int dim = dimension(block.type.shape);
+        const auto per_element = static_cast<std::size_t>(node_count(block.type));
+        const auto group = group_of_entity.find({dim, block.entity_tag});
+        for (std::size_t i = 0; i < block.tags.size(); ++i) {
+            const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(i * per_element);
+            ids.assign(first, first + static_cast<std::ptrdiff_t>(per_element));
+            cells->InsertNextCell(static_cast<vtkIdType>(per_element), ids.data());
+            types->InsertNextValue(static_cast<unsigned char>(vtk_type_of(block.type)));
+            tags->InsertNextValue(block.tags[i].value);
+            entities->InsertNextValue(block.entity_tag);
+            groups->InsertNextValue(group == group_of_entity.end() ? 0 : group->second);
+            if (quality == nullptr) continue;
+            const bool is_element = dim == topology.dimension() && dim > 0;
+            jacobian->InsertNextValue(is_element ? quality->elements[element].scaled_jacobian : no_jacobian);
+            int state = -1;
+            if (is_element) {
+                const Validity proved = quality->elements[element++].validity;
+                state = proved == Validity::valid ? 1 : proved == Validity::invalid ? 0 : 2;
+            }
+            validity->InsertNextValue(state);
+        }
+    }
+    grid.SetCells(types, cells);
+    for (vtkDataArray* array : std::initializer_list<vtkDataArray*>{tags, entities, groups})
+        grid.GetCellData()->AddArray(array);
+    if (quality == nullptr) return;
+    grid.GetCellData()->AddArray(jacobian);
+    grid.GetCellData()->AddArray(validity);
+}
+
+void fill_field_data(vtkUnstructuredGrid& grid, const MeshData& data) {
+    vtkFieldData* field = grid.GetFieldData();
+    std::vector<int> entities, groups, node_entities;
+    for (const Entity& entity : data.entities) {
+        entities.insert(entities.end(), {entity.dimension, entity.tag, static_cast<int>(entity.physical_tags.size())});
+        entities.insert(entities.end(), entity.physical_tags.begin(), entity.physical_tags.end());
+        entities.push_back(static_cast<int>(entity.bounding_entities.size()));
+        entities.insert(entities.end(), entity.bounding_entities.begin(), entity.bounding_entities.end());
+    }
+    if (!entities.empty()) {
+        field->AddArray(int_array(entities_name, 1, entities));
+        auto boxes = new_array<vtkDoubleArray>(boxes_name, 6, static_cast<vtkIdType>(data.entities.size()));
+        for (std::size_t i = 0; i < data.entities.size(); ++i)
+            boxes->SetTuple(static_cast<vtkIdType>(i), data.entities[i].bounding_box.data());
+        field->AddArray(boxes);
+    }
+    if (!data.groups.empty()) {
+        vtkNew<vtkStringArray> names;
+        names->SetName(group_names_name);
+        for (const PhysicalGroup& group : data.groups) {
+            groups.insert(groups.end(), {group.dimension, group.tag});
+            names->InsertNextValue(group.name);
+        }
+        field->AddArray(int_array(groups_name, 2, groups));
+        field->AddArray(names);
+    }
+    for (const NodeEntity& entity : data.node_entities)
+        node_entities.insert(node_entities.end(), {entity.dimension, entity.tag});
+    if (!node_entities.empty()) field->AddArray(int_array(node_entities_name, 2, node_entities));
+}
+
+// ---------------------------------------------------------------------------------------------------- grid to mesh
+
+/// Values of an integer array with the given name and size; none if there is no such array.
+std::optional<std::vector<std::int64_t>> integers(vtkFieldData* data, const char* name, int components,
+                                                  std::optional<vtkIdType> tuples) {
+    vtkDataArray* array = data->GetArray(name);
+    if (array == nullptr || array->GetNumberOfComponents() != components ||
+        (tuples && array->GetNumberOfTuples() != *tuples))
+        return std::nullopt;
+    std::vector<std::int64_t> values(static_cast<std::size_t>(array->GetNumberOfValues()));
+    const auto* wide = vtkTypeInt64Array::SafeDownCast(array);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const auto id = static_cast<vtkIdType>(i);
+        if (wide != nullptr) {
+            values[i] = wide->GetValue(id);
+            continue;
+        }
+        const double value = array->GetComponent(id / components, static_cast<int>(id % components));
+        if (!(std::abs(value) < 9e15) || value != std::floor(value)) return std::nullopt;
+        values[i] = static_cast<std::int64_t>(value);
+    }
+    return values;
+}
+
+class GridReader {
+  public:
+    GridReader(vtkUnstructuredGrid& grid, std::string file, MeshFormat format)
+        : grid_(grid), file_(std::move(file)), format_(format) {}
+
+    ReadResult read() {
+        if (grid_.GetNumberOfCells() == 0 || grid_.GetPoints() == nullptr)
+            fail("the file holds no cells; a mesh was expected.");
+        if (grid_.GetNumberOfPoints() > std::numeric_limits<Index>::max() / 4)
+            throw Unsupported(fmt::format("{}: the mesh has too many points.", file_));
+        read_points();
+        read_cells();
+        read_field_data();
+        if (!is_ours_) note_gmsh_order();
+        complete_entities(data_, coordinates_);
+        complete_groups(data_);
+        return {assemble_mesh(std::move(data_), std::move(coordinates_), file_), format_, std::move(notes_)};
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& message) const { throw InvalidInput(file_, 0, message); }
+    void read_points();
+    void check_connectivity();
+    void read_cells();
+    void read_field_data();
+    bool read_entities();
+    void note_gmsh_order();
+
+    vtkUnstructuredGrid& grid_;
+    std::string file_;
+    MeshFormat format_;
+    bool is_ours_ = false;
+    MeshData data_;
+    Coordinates coordinates_;
+    std::vector<std::string> notes_;
+};
+
+void GridReader::read_points() {
+    const vtkIdType count = grid_.GetNumberOfPoints();
+    coordinates_.resize(count, 3);
+    for (vtkIdType i = 0; i < count; ++i) grid_.GetPoint(i, coordinates_.row(i).data());
+    const auto tags = integers(grid_.GetPointData(), node_tag_name, 1, count);
+    is_ours_ = tags.has_value();
+    bool is_usable = tags.has_value();
+    std::unordered_set<std::int64_t> seen;
+    for (std::size_t i = 0; is_usable && i < tags->size(); ++i)
+        is_usable = (*tags)[i] >= 0 && seen.insert((*tags)[i]).second;
+    if (tags && !is_usable)
+        notes_.push_back(
+            fmt::format("The array {} has negative or repeated values: nodes were numbered from 1.", node_tag_name));
+    for (vtkIdType i = 0; i < count; ++i)
+        data_.node_tags.push_back({is_usable ? (*tags)[static_cast<std::size_t>(i)] : i + 1});
+}
+
+void GridReader::check_connectivity() {
+    vtkCellArray* cells = grid_.GetCells();
+    vtkDataArray *offsets = cells->GetOffsetsArray(), *connectivity = cells->GetConnectivityArray();
+    const vtkIdType count = grid_.GetNumberOfCells();
+    if (cells->GetNumberOfCells() != count || offsets->GetNumberOfValues() != count + 1 ||
+        grid_.GetCellTypesArray() == nullptr || grid_.GetCellTypesArray()->GetNumberOfValues() < count)
+        fail("the numbers of cells, offsets and cell types do not agree.");
+    double previous = 0.0;
+    for (vtkIdType i = 0; i <= count; ++i) {
+        const double offset = offsets->GetTuple1(i);
+        if (offset < previous || (i == 0 && offset != 0.0) ||
+            offset > static_cast<double>(connectivity->GetNumberOfValues()))
+            fail(fmt::format("the offsets of the cells are damaged at cell {}.", i));
+        previous = offset;
+    }
+    const auto points = static_cast<double>(grid_.GetNumberOfPoints());
+    for (vtkIdType i = 0; i < connectivity->GetNumberOfValues(); ++i)
+        if (const double point = connectivity->GetTuple1(i); point < 0.0 || point >= points)
+            fail(fmt::format("a cell refers to point {}, but there are {} points.", point, points));
+}
+
+void GridReader::read_cells() {
+    check_connectivity();
+    const vtkIdType count = grid_.GetNumberOfCells();
+    auto tags = integers(grid_.GetCellData(), element_tag_name, 1, count);
+    const auto entities = integers(grid_.GetCellData(), entity_tag_name, 1, count);
+    vtkDataArray* degrees = grid_.GetCellData()->GetHigherOrderDegrees();
+    if (degrees != nullptr && (degrees->GetNumberOfComponents() != 3 || degrees->GetNumberOfTuples() != count))
+        degrees = nullptr;
+    std::map<std::pair<int, vtkIdType>, ReadableCell> known;
+    std::set<std::pair<int, std::int64_t>> seen;
+    bool has_bad_tags = false;
+    vtkIdType gmsh_cells = 0;
+    vtkNew<vtkIdList> ids;
+    for (vtkIdType cell = 0; cell < count; ++cell) {
+        const int vtk_type = grid_.GetCellType(cell);
+        grid_.GetCells()->GetCellAtId(cell, ids);
+        const vtkIdType points = ids->GetNumberOfIds();
+        auto found = known.find({vtk_type, points});
+        if (found == known.end()) {
+            const auto readable = readable_cell(vtk_type, points);
+            if (!readable)
+                throw Unsupported(fmt::format(
+                    "{}: cell {} is a {} (VTK type {}) with {} points, which is not supported; linear, Lagrange (up to "
+                    "order {}) and complete quadratic cells are.",
+                    file_, cell, vtkCellTypes::GetClassNameFromTypeId(vtk_type), vtk_type, points, max_order));
+            found = known.emplace(std::pair(vtk_type, points), *readable).first;
+        }
+        const auto& [type, permutation, is_gmsh_export] = found->second;
+        gmsh_cells += is_gmsh_export ? 1 : 0;
+        for (int d = 0; degrees != nullptr && d < dimension(type.shape); ++d)
+            if (type.order > 1 && degrees->GetComponent(cell, d) != type.order)
+                throw Unsupported(fmt::format(
+                    "{}: cell {} has different orders along its axes, which is not supported.", file_, cell));
+        const auto place = static_cast<std::size_t>(cell);
+        const std::int64_t entity = entities ? (*entities)[place] : 0;
+        ElementBlock& block = block_for(
+            data_.blocks, type, std::abs(entity) < std::numeric_limits<int>::max() ? static_cast<int>(entity) : 0);
+        const std::int64_t tag = tags ? (*tags)[place] : cell + 1;
+        has_bad_tags = has_bad_tags || tag < 0 || !seen.emplace(dimension(type.shape), tag).second;
+        block.tags.push_back({tag});
+        for (vtkIdType i = 0; i < points; ++i)
+            block.nodes.push_back(
+                static_cast<Index>(ids->GetId(permutation.empty() ? i : permutation[static_cast<std::size_t>(i)])));
+    }
+    if (gmsh_cells > 0)
+        notes_.push_back(
+            fmt::format("{} cells are of a linear VTK type but have the points of a higher order: they were read as "
+                        "Gmsh writes such cells, in Gmsh's node order.",
+                        gmsh_cells));
+    if (!has_bad_tags) return;
+    notes_.push_back(
+        fmt::format("The array {} has negative or repeated values: elements were numbered from 1.", element_tag_name));
+    std::int64_t next = 1;
+    for (ElementBlock& block : data_.blocks)
+        for (ElementTag& tag : block.tags) tag.value = next++;
+}
+
+bool GridReader::read_entities() {
+    vtkFieldData* field = grid_.GetFieldData();
+    const auto runs = integers(field, entities_name, 1, std::nullopt);
+    vtkDataArray* boxes = field->GetArray(boxes_name);
+    if (!runs) return field->GetAbstractArray(entities_name) == nullptr;
+    std::size_t next = 0;
+    const auto take = [&] {
+        const std::int64_t value = next < runs->size() ? (*runs)[next] : 0;
+        ++next;
+        return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
+    };
+    std::set<EntityKey> seen;
+    while (next < runs->size()) {
+        Entity entity;
+        entity.dimension = take();
+        entity.tag = take();
+        for (auto* tags : {&entity.physical_tags, &entity.bounding_entities}) {
+            const int count = take();
+            if (count < 0 || static_cast<std::size_t>(count) > runs->size()) return false;
+            for (int i = 0; i < count; ++i) tags->push_back(take());
+        }
+        const bool is_known_dimension = entity.dimension >= 0 && entity.dimension <= 3;
+        if (next > runs->size() || !is_known_dimension || !seen.emplace(entity.dimension, entity.tag).second)
+            return false;
+        const auto place = static_cast<vtkIdType>(data_.entities.size());
+        if (boxes != nullptr && boxes->GetNumberOfComponents() == 6 && place < boxes->GetNumberOfTuples())
+            boxes->GetTuple(place, entity.bounding_box.data());
+        data_.entities.push_back(std::move(entity));
+    }
+    return true;
+}
+
+void GridReader::read_field_data() {
+    vtkFieldData* field = grid_.GetFieldData();
+    bool is_whole = read_entities();
+    if (!is_whole) data_.entities.clear();
+    const auto groups = integers(field, groups_name, 2, std::nullopt);
+    auto* names = vtkStringArray::SafeDownCast(field->GetAbstractArray(group_names_name));
+    for (std::size_t i = 0; groups && 2 * i < groups->size(); ++i) {
+        const auto dim = (*groups)[2 * i], tag = (*groups)[2 * i + 1];
+        if (dim < 0 || dim > 3 || tag < 0 || tag > std::numeric_limits<int>::max()) {
+            is_whole = false;
+            continue;
+        }
+        const auto place = static_cast<vtkIdType>(i);
+        const bool has_name = names != nullptr && place < names->GetNumberOfValues();
+        is_whole = is_whole && has_name;
+        data_.groups.push_back({static_cast<int>(dim), static_cast<int>(tag),
+                                has_name ? std::string(names->GetValue(place)) : std::string()});
+    }
+    if (const auto on = integers(field, node_entities_name, 2, grid_.GetNumberOfPoints())) {
+        for (std::size_t i = 0; 2 * i < on->size(); ++i) {
+            const auto dim = (*on)[2 * i], tag = (*on)[2 * i + 1];
+            const bool is_known = dim >= 0 && dim <= 3 && std::abs(tag) <= std::numeric_limits<int>::max();
+            data_.node_entities.push_back(is_known ? NodeEntity{static_cast<int>(dim), static_cast<int>(tag)}
+                                                   : NodeEntity{});
+        }
+    } else if (field->HasArray(node_entities_name) != 0) {
+        is_whole = false;
+    }
+    if (!is_whole)
+        notes_.push_back(
+            "The arrays that tell entities and groups (Curvewright...) do not fit the mesh; what could be "
+            "understood of them was kept.");
+}
+
+/// Gmsh's own export writes curved tetrahedra with Gmsh's node order: nodes then lie far from where a nearly
+/// straight-sided cell has them, and near it when they are put in order.
+void GridReader::note_gmsh_order() {
+    std::size_t tetrahedra = 0, suspicious = 0;
+    for (const ElementBlock& block : data_.blocks) {
+        if (block.type.shape != Shape::tetrahedron || block.type.order < 3) continue;
+        const auto& lattice = reference_element(block.type).lattice;
+        const auto& permutation = gmsh_permutation(block.type);
+        const double p = block.type.order;
+        for (std::size_t i = 0; i < block.tags.size(); ++i) {
+            const Index* nodes = block.nodes.data() + i * lattice.size();
+            double as_read = 0.0, in_order = 0.0;
+            for (std::size_t k = 0; k < lattice.size(); ++k) {
+                Eigen::RowVector3d straight = coordinates_.row(nodes[0]);
+                for (int d = 0; d < 3; ++d)
+                    straight += lattice[k][d] / p * (coordinates_.row(nodes[d + 1]) - coordinates_.row(nodes[0]));
+                as_read += (coordinates_.row(nodes[k]) - straight).squaredNorm();
+                in_order += (coordinates_.row(nodes[permutation[k]]) - straight).squaredNorm();
+            }
+            ++tetrahedra;
+            suspicious += in_order < 0.25 * as_read;
+        }
+    }
+    if (2 * suspicious > tetrahedra)
+        notes_.push_back(
+            fmt::format("{} of {} tetrahedra look as if their nodes stood in Gmsh's order instead of VTK's "
+                        "(Gmsh's own VTK export does that); export MSH from Gmsh and read that instead.",
+                        suspicious, tetrahedra));
+}
+
+}  // namespace
+
+void fill_grid(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options, bool is_legacy_text) {
+    fill_points(grid, mesh, options);
+    fill_cells(grid, mesh, options, is_legacy_text);
+    fill_field_data(grid, mesh.topology().data());
+}
+
+ReadResult mesh_of_grid(vtkUnstructuredGrid& grid, const std::string& file, MeshFormat format) {
+    return GridReader(grid, file, format).read();
+}
+
+}  // namespace curvewright

@@ -1,1 +1,247 @@
-// Being written.
+#include "core/io/vtk_io.h"
+
+#include <cerrno>
+#include <climits>
+#include <cstring>
+#include <fstream>
+#include <mutex>
+#include <new>
+#include <thread>
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkDoubleArray.h>
+#include <vtkErrorCode.h>
+#include <vtkNew.h>
+#include <vtkOutputWindow.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkSmartPointer.h>
+#include <vtkUnstructuredGrid.h>
+#include <vtkUnstructuredGridReader.h>
+#include <vtkUnstructuredGridWriter.h>
+#include <vtkXMLUnstructuredGridReader.h>
+#include <vtkXMLUnstructuredGridWriter.h>
+
+#include "core/base/error.h"
+#include "core/io/vtk_grid.h"
+
+namespace curvewright {
+namespace {
+
+/// Where VTK's complaints of one thread go while it reads or writes, instead of the terminal.
+class CapturingWindow : public vtkOutputWindow {
+  public:
+    static CapturingWindow* New() {
+        auto* window = new CapturingWindow;
+        window->InitializeObjectBase();
+        return window;
+    }
+
+    void DisplayText(const char* text) override { forward(text, &vtkOutputWindow::DisplayText); }
+    void DisplayErrorText(const char* text) override {
+        if (std::this_thread::get_id() == thread_)
+            first_error_ = first_error_.empty() ? text : first_error_;
+        else
+            forward(text, &vtkOutputWindow::DisplayErrorText);
+    }
+    void DisplayWarningText(const char* text) override { forward(text, &vtkOutputWindow::DisplayWarningText); }
+    void DisplayGenericWarningText(const char* text) override {
+        forward(text, &vtkOutputWindow::DisplayGenericWarningText);
+    }
+
+    void set_previous(vtkOutputWindow* previous) { previous_ = previous; }
+    const std::string& first_error() const { return first_error_; }
+
+  private:
+    void forward(const char* text, void (vtkOutputWindow::*display)(const char*)) {
+        if (std::this_thread::get_id() != thread_ && previous_ != nullptr) (previous_->*display)(text);
+    }
+
+    std::thread::id thread_ = std::this_thread::get_id();
+    vtkSmartPointer<vtkOutputWindow> previous_;
+    std::string first_error_;
+};
+
+/// Catches VTK's complaints for its lifetime. One at a time: VTK has one output window per process.
+class Capture {
+  public:
+    Capture() : lock_(mutex()), previous_(vtkOutputWindow::GetInstance()) {
+        window_->set_previous(previous_);
+        vtkOutputWindow::SetInstance(window_);
+    }
+    ~Capture() { vtkOutputWindow::SetInstance(previous_); }
+    Capture(const Capture&) = delete;
+    Capture& operator=(const Capture&) = delete;
+
+    bool has_error() const { return !window_->first_error().empty(); }
+    /// The first complaint as one line, without VTK's "ERROR: In FILE, line N" and the address of the object.
+    std::string message() const {
+        std::string text = window_->first_error();
+        const std::size_t object = text.find("): ");
+        if (object != text.npos) text = text.substr(object + 3);
+        std::string line;
+        for (const char c : text) {
+            const char shown = c == '\n' || c == '\t' || c == '\r' ? ' ' : c;
+            if (shown != ' ' || (!line.empty() && line.back() != ' ')) line += shown;
+        }
+        while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
+        return line.substr(0, 300);
+    }
+
+  private:
+    static std::mutex& mutex() {
+        static std::mutex instance;
+        return instance;
+    }
+    std::lock_guard<std::mutex> lock_;
+    vtkSmartPointer<vtkOutputWindow> previous_;
+    vtkNew<CapturingWindow> window_;
+};
+
+/// The rows of an array of numbers, in the shortest form that reads back as the same numbers.
+std::string exact_rows(vtkDataArray& array) {
+    fmt::memory_buffer text;
+    for (vtkIdType i = 0; i < array.GetNumberOfTuples(); ++i)
+        for (int d = 0; d < array.GetNumberOfComponents(); ++d)
+            fmt::format_to(std::back_inserter(text), "{}{}", array.GetComponent(i, d),
+                           d + 1 < array.GetNumberOfComponents() ? ' ' : '\n');
+    return fmt::to_string(text);
+}
+
+/// Puts all digits of an array into a legacy text file, where VTK writes eleven. header: the line before the numbers.
+void restore_digits(std::string& text, const std::string& header, vtkDataArray& array) {
+    const std::size_t found = text.find("\n" + header + "\n");
+    if (found == text.npos) return;
+    const std::size_t begin = found + header.size() + 2;
+    std::size_t end = begin;
+    const char* blanks = " \t\r\n";
+    for (vtkIdType left = array.GetNumberOfValues(); left > 0; --left) {
+        end = text.find_first_of(blanks, text.find_first_not_of(blanks, end));
+        if (end == text.npos) return;
+    }
+    text.replace(begin, text.find('\n', end) + 1 - begin, exact_rows(array));
+}
+
+/// The grid as a legacy text file with all digits.
+std::string legacy_text(vtkUnstructuredGridWriter& writer, vtkUnstructuredGrid& grid) {
+    writer.WriteToOutputStringOn();
+    if (writer.Write() == 0) return {};
+    std::string text = writer.GetOutputStdString();
+    restore_digits(text, fmt::format("POINTS {} double", grid.GetNumberOfPoints()), *grid.GetPoints()->GetData());
+    for (vtkFieldData* data :
+         std::initializer_list<vtkFieldData*>{grid.GetFieldData(), grid.GetPointData(), grid.GetCellData()})
+        for (int i = 0; i < data->GetNumberOfArrays(); ++i)
+            if (vtkDataArray* array = data->GetArray(i); array != nullptr && array->GetDataType() == VTK_DOUBLE)
+                restore_digits(text,
+                               fmt::format("{} {} {} double", array->GetName(), array->GetNumberOfComponents(),
+                                           array->GetNumberOfTuples()),
+                               *array);
+    return text;
+}
+
+/// The grid that a legacy or XML reader makes of the text. The text must outlive the call.
+template <class Reader>
+vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file, const char* expected) {
+    Capture capture;
+    try {
+        reader.Update();
+    } catch (const std::bad_alloc&) {
+        throw InvalidInput(file, 0,
+                           fmt::format("the file is damaged: it asks for more memory than there is; {} was "
+                                       "expected.",
+                                       expected));
+    } catch (const std::exception& error) {
+        throw InvalidInput(file, 0, fmt::format("the file is damaged ({}); {} was expected.", error.what(), expected));
+    }
+    if (capture.has_error() || reader.GetErrorCode() != vtkErrorCode::NoError || reader.GetOutput() == nullptr)
+        throw InvalidInput(file, 0,
+                           fmt::format("the file cannot be read as {} ({}).", expected,
+                                       capture.has_error() ? capture.message() : "VTK gives no reason"));
+    return reader.GetOutput();
+}
+
+}  // namespace
+
+ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format, const TaskContext& context) {
+    vtkSmartPointer<vtkUnstructuredGrid> grid;
+    if (format == MeshFormat::vtu) {
+        const char* expected = "a VTK XML unstructured grid";
+        if (text.substr(0, 4096).find("UnstructuredGrid") == text.npos)
+            throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
+        vtkNew<vtkXMLUnstructuredGridReader> reader;
+        reader->ReadFromInputStringOn();
+        reader->SetInputString(text);
+        text = {};
+        grid = run(*reader, file, expected);
+    } else {
+        const char* expected = "a legacy VTK file with an unstructured grid";
+        if (!text.starts_with("# vtk DataFile") || text.substr(0, 4096).find("UNSTRUCTURED_GRID") == text.npos)
+            throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
+        if (text.size() > static_cast<std::size_t>(INT_MAX))
+            throw Unsupported(fmt::format("{}: legacy VTK files above 2 GB are not supported; use .vtu.", file));
+        vtkNew<vtkUnstructuredGridReader> reader;
+        reader->ReadFromInputStringOn();
+        reader->SetInputString(text.data(), static_cast<int>(text.size()));
+        text = {};
+        grid = run(*reader, file, expected);
+    }
+    context.report("reading", 0.5);
+    ReadResult result = mesh_of_grid(*grid, file, format);
+    context.report("reading", 1.0);
+    return result;
+}
+
+void write_vtk(const std::filesystem::path& path, const std::string& target, const CurvedMesh& mesh, MeshFormat format,
+               const WriteOptions& options) {
+    const bool is_text = !options.binary.value_or(format == MeshFormat::vtu);
+    vtkNew<vtkUnstructuredGrid> grid;
+    try {
+        fill_grid(*grid, mesh, options, is_text && format == MeshFormat::vtk);
+    } catch (const Unsupported& error) {
+        throw Unsupported(fmt::format("{}: {}", target, error.what()));
+    }
+    {
+        errno = 0;
+        if (!std::ofstream(path))  // VTK would only say that it failed
+            throw InvalidInput(target, 0, fmt::format("the file cannot be written ({}).", std::strerror(errno)));
+    }
+    Capture capture;
+    int is_written = 0;
+    if (format == MeshFormat::vtu) {
+        vtkNew<vtkXMLUnstructuredGridWriter> writer;
+        writer->SetFileName(path.c_str());
+        writer->SetInputData(grid);
+        if (is_text) {
+            writer->SetDataModeToAscii();
+        } else {
+            writer->SetDataModeToAppended();
+            writer->EncodeAppendedDataOff();
+            writer->SetCompressorTypeToZLib();
+        }
+        is_written = writer->Write();
+    } else {
+        vtkNew<vtkUnstructuredGridWriter> writer;
+        writer->SetFileName(path.c_str());
+        writer->SetHeader("Curvewright mesh");
+        writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
+        writer->SetInputData(grid);
+        if (is_text) {
+            writer->SetFileTypeToASCII();
+            const std::string text = legacy_text(*writer, *grid);
+            std::ofstream stream(path, std::ios::binary);
+            stream << text;
+            stream.close();
+            is_written = !text.empty() && stream ? 1 : 0;
+        } else {
+            writer->SetFileTypeToBinary();
+            is_written = writer->Write();
+        }
+    }
+    if (is_written == 0 || capture.has_error())
+        throw InvalidInput(target, 0,
+                           fmt::format("the file cannot be written ({}).",
+                                       capture.has_error() ? capture.message() : "is the disk full?"));
+}
+
+}  // namespace curvewright

@@ -1,1 +1,91 @@
-// Being written.
+#include "core/quality/quality.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/quality/jacobian_bounds.h"
+
+namespace curvewright {
+
+QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options, const TaskContext& context) {
+    if (!(options.tolerance > 0.0))
+        throw InvalidInput(fmt::format("The tolerance of the scaled Jacobian is {}; it must be positive.",
+                                       options.tolerance));
+    const MeshTopology& topology = mesh.topology();
+    QualityReport report;
+    report.orientation = find_orientation(mesh);
+    const double sign = orientation_sign(report.orientation, mesh);
+    report.elements.resize(static_cast<std::size_t>(topology.element_count()));
+
+    // Pieces are of equal work only for equal orders; a piece of a high order is made small.
+    const int order = topology.order();
+    const std::size_t grain = order <= 3 ? 256 : order <= 5 ? 32 : 4;
+    parallel_for(report.elements.size(), grain, context, "Certifying elements", [&](std::size_t begin, std::size_t end) {
+        std::optional<JacobianBounds> bounds;
+        ElementType type;
+        Eigen::MatrixX3d x;
+        for (std::size_t i = begin; i < end; ++i) {
+            context.check();
+            const auto element = static_cast<Index>(i);
+            if (!bounds || type != topology.element_type(element)) {
+                type = topology.element_type(element);
+                bounds.emplace(type);
+            }
+            const auto nodes = topology.element_nodes(element);
+            x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                x.row(static_cast<Eigen::Index>(k)) = mesh.coordinates().row(nodes[k]);
+            report.elements[i] = bounds->bound(x, sign, options);
+        }
+    });
+
+    QualitySummary& summary = report.summary;
+    if (!report.elements.empty()) {
+        summary.min = std::numeric_limits<double>::infinity();
+        summary.max = -summary.min;
+        double total = 0.0;
+        for (const ElementQuality& quality : report.elements) {
+            summary.min = std::min(summary.min, quality.scaled_jacobian);
+            summary.max = std::max(summary.max, quality.scaled_jacobian);
+            total += quality.scaled_jacobian / static_cast<double>(report.elements.size());
+            if (quality.validity == Validity::valid) ++summary.valid;
+            if (quality.validity == Validity::invalid) ++summary.invalid;
+            if (quality.validity == Validity::undecided) ++summary.undecided;
+        }
+        summary.mean = std::max(total, std::numeric_limits<double>::lowest());
+    }
+    return report;
+}
+
+std::vector<Index> QualityReport::worst(std::size_t count) const {
+    std::vector<Index> order(elements.size());
+    std::iota(order.begin(), order.end(), Index{0});
+    count = std::min(count, order.size());
+    std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+                      [&](Index a, Index b) {
+                          const double qa = elements[a].scaled_jacobian, qb = elements[b].scaled_jacobian;
+                          return qa != qb ? qa < qb : a < b;
+                      });
+    order.resize(count);
+    return order;
+}
+
+int Histogram::bin_of(double value) const {
+    const int bins = static_cast<int>(counts.size());
+    const double position = (value - lower) / (upper - lower) * bins;
+    if (!(position > 0.0)) return 0;
+    return position >= bins ? bins - 1 : static_cast<int>(position);
+}
+
+Histogram make_histogram(const QualityReport& report, double lower, double upper, int bins) {
+    Histogram histogram{lower, upper, std::vector<Index>(static_cast<std::size_t>(bins), 0)};
+    for (const ElementQuality& quality : report.elements) ++histogram.counts[histogram.bin_of(quality.scaled_jacobian)];
+    return histogram;
+}
+
+}  // namespace curvewright

@@ -14,25 +14,31 @@ struct TessellationOptions {
     int min_subdivisions = 4, max_subdivisions = 24;
 };
 
-/// Straight pieces that draw a curved mesh: its surface as triangles and its element edges as polylines. In 2D the surface
-/// is every element, in 3D the faces that only one of the visible elements has. The connectivity is made once; move()
-/// follows new coordinates. Points are single precision, relative to origin().
+/// Straight pieces that draw a curved mesh: its surface as triangles and its element edges as polylines. In 2D the
+/// surface is every element, in 3D the faces that only one of the visible elements has. The connectivity is made once;
+/// move() follows new coordinates. Points are single precision, relative to origin().
 class Tessellation {
   public:
-    /// visible: one flag per element; empty = all. Any shapes and orders; cells below the mesh's dimension are not drawn.
+    /// visible: one flag per element; empty = all. Any shapes and orders; cells below the mesh's dimension are not
+    /// drawn.
     explicit Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visible = {},
                           const TessellationOptions& options = {});
 
-    /// Recomputes all points for the same mesh with other coordinates.
+    /// Recomputes all points for the same mesh with other coordinates. Throws InvalidInput if their number differs.
     void move(const Coordinates& coordinates);
+    /// Whether move() to these coordinates keeps the chord tolerance (no piece would have to be cut finer) and the
+    /// precision of the points (the mesh stays near the origin). If not, make a new tessellation.
+    bool is_fine_enough(const Coordinates& coordinates) const;
 
     /// Subtracted from all points: the centre of the bounding box at construction.
     const Eigen::RowVector3d& origin() const { return origin_; }
 
     // Surface. Each face has points of its own, so that its colour and normals are its own.
-    const std::vector<float>& surface_points() const { return surface_points_; }    ///< 3 per point: x, y, z
-    const std::vector<float>& surface_normals() const { return surface_normals_; }  ///< 3 per point, unit, outward in 3D
-    const std::vector<Index>& triangles() const { return triangles_; }              ///< 3 per triangle: points
+    const std::vector<float>& surface_points() const { return surface_points_; }  ///< 3 per point: x, y, z
+    const std::vector<float>& surface_normals() const {
+        return surface_normals_;
+    }                                                                   ///< 3 per point, unit, outward in 3D
+    const std::vector<Index>& triangles() const { return triangles_; }  ///< 3 per triangle: points
     const std::vector<Index>& triangle_elements() const { return triangle_elements_; }  ///< per triangle: its element
 
     // Edges: every edge of the surface once.
@@ -50,13 +56,28 @@ class Tessellation {
   private:
     struct Patch {
         Index element = 0;
-        ElementType type;           ///< of the face or edge
+        ElementType type;  ///< of the face or edge
         int subdivisions = 1;
-        Index first_node = 0;       ///< in patch_nodes_
-        Index first_point = 0;      ///< in the points of its kind
+        Index first_node = 0;   ///< in patch_nodes_
+        Index first_point = 0;  ///< in the points of its kind
     };
 
+    void find_edges();
+    void choose_subdivisions(std::vector<Patch>& patches, const Coordinates& coordinates) const;
+    int wanted_subdivisions(const Patch& patch, const Coordinates& coordinates,
+                            const std::vector<Patch>& patches) const;
+    void lay_out();
+    /// nodes × 3 count: positions of the nodes of `count` patches of one type, relative to the origin, side by side.
+    Eigen::MatrixXd gather(const std::vector<Patch>& patches, std::size_t first, std::size_t count,
+                           const Coordinates& coordinates) const;
+    void move_patches(const std::vector<Patch>& patches, const Coordinates& coordinates, std::vector<float>& points,
+                      std::vector<float>* normals) const;
+
+    TessellationOptions options_;
+    Index node_count_ = 0;
+    bool is_solid_ = false;
     Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+    double diagonal_ = 0.0;  ///< of the bounding box at construction
     std::vector<Index> patch_nodes_;
     std::vector<Patch> faces_, edges_;
     std::vector<float> surface_points_, surface_normals_, edge_points_;

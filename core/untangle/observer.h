@@ -10,10 +10,9 @@ namespace curvewright {
 
 /// Why an untangling ended.
 enum class StopReason {
-    converged,   ///< the nodes moved less than the tolerance in a pass
-    pass_limit,  ///< max_passes were made
-    no_tangling, ///< nothing to do
-    no_progress, ///< the last pass lowered the certified quality and was taken back
+    converged,    ///< the nodes moved less than the tolerance in a pass
+    pass_limit,   ///< max_passes were made
+    no_progress,  ///< the last pass lowered the certified quality and was taken back
 };
 const char* to_string(StopReason reason);
 

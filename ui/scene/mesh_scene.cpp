@@ -1,1 +1,334 @@
-// Being written.
+#include "ui/scene/mesh_scene.h"
+
+#include <algorithm>
+
+#include <vtkActor.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCullerCollection.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include "core/base/error.h"
+#include "ui/scene/camera_control.h"
+#include "ui/scene/element_spacing.h"
+#include "ui/scene/interactor_style.h"
+#include "ui/scene/legend.h"
+#include "ui/scene/node_actor.h"
+#include "ui/scene/orientation_axes.h"
+#include "ui/scene/picking.h"
+#include "ui/scene/stroke_actor.h"
+#include "ui/scene/surface_actor.h"
+#include "ui/scene/tangled_marks.h"
+
+namespace curvewright {
+namespace {
+
+constexpr Color neutral_color{0.80, 0.84, 0.88};
+constexpr Color accent_color{0.06, 0.40, 0.95};
+
+/// The lines of a tessellation that are (or are not) on the boundary of a flat mesh.
+Polylines select_lines(const Tessellation& tessellation, const std::vector<float>& spacing, bool on_boundary) {
+    Polylines lines;
+    const auto& offsets = tessellation.line_offsets();
+    for (std::size_t line = 0; line + 1 < offsets.size(); ++line) {
+        if ((tessellation.line_is_boundary()[line] != 0) != on_boundary) continue;
+        const auto begin = tessellation.edge_points().begin();
+        lines.points.insert(lines.points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
+        lines.offsets.push_back(static_cast<Index>(lines.points.size() / 3));
+        lines.spacing.push_back(spacing[line]);
+    }
+    return lines;
+}
+
+/// One flag per element; empty = all are visible.
+std::vector<bool> find_visible(const CurvedMesh& mesh, const std::optional<ClipPlane>& clip) {
+    if (!clip || clip->position >= 1.0 || mesh.topology().dimension() < 3) return {};
+    const Eigen::Vector3d normal(clip->normal[0], clip->normal[1], clip->normal[2]);
+    double low = 0.0, high = 0.0;
+    bool is_first = true;
+    std::vector<double> centers;
+    for (Index element = 0; element < mesh.topology().element_count(); ++element) {
+        for (Index node : mesh.topology().element_nodes(element)) {
+            const double along = mesh.coordinates().row(node).dot(normal);
+            low = is_first ? along : std::min(low, along);
+            high = is_first ? along : std::max(high, along);
+            is_first = false;
+        }
+        centers.push_back(mesh.element_center(element).dot(normal));
+    }
+    const double limit = low + clip->position * (high - low);
+    std::vector<bool> visible(centers.size());
+    for (std::size_t i = 0; i < centers.size(); ++i) visible[i] = clip->position > 0.0 && centers[i] <= limit;
+    return visible;
+}
+
+}  // namespace
+
+struct MeshScene::Parts {
+    vtkNew<vtkRenderer> renderer;
+    SceneOptions options;
+    std::optional<CurvedMesh> mesh;
+    std::optional<QualityReport> quality;
+    std::vector<Index> highlighted;
+
+    WorldFrame frame;
+    std::vector<bool> visible;
+    std::unique_ptr<Tessellation> tessellation;
+    double typical_spacing = 0.0;  ///< world
+
+    CameraControl camera{renderer};
+    SurfaceActor surface;
+    StrokeActor edges, boundary;
+    TangledMarks marks{add_base_actors()};
+    NodeActors nodes;
+    StrokeActor highlight_halo, highlight;
+    Legend legend{add_top_actors()};
+    OrientationAxes axes{renderer};
+    vtkNew<vtkCallbackCommand> frame_observer;
+    vtkSmartPointer<SceneInteractorStyle> style;
+
+    Parts() {
+        // Our actors have no bounds (ribbons and rings live on the screen); there is nothing to cull.
+        renderer->GetCullers()->RemoveAllItems();
+        frame_observer->SetClientData(this);
+        frame_observer->SetCallback(
+            [](vtkObject*, unsigned long, void* self, void*) { static_cast<Parts*>(self)->prepare_frame(); });
+        renderer->AddObserver(vtkCommand::StartEvent, frame_observer);
+        apply_options();
+    }
+    ~Parts() {
+        if (style) style->connect(nullptr, {});
+        renderer->RemoveObserver(frame_observer);
+    }
+
+    // Members are drawn in the order in which they are added: what lies above comes later.
+    vtkRenderer* add_base_actors() {
+        for (vtkActor* actor : {surface.actor(), edges.actor(), boundary.actor()}) renderer->AddActor(actor);
+        return renderer;
+    }
+    vtkRenderer* add_top_actors() {
+        for (vtkActor* actor : {nodes.others(), nodes.corners(), highlight_halo.actor(), highlight.actor()})
+            renderer->AddActor(actor);
+        return renderer;
+    }
+
+    bool is_flat() const { return !mesh || mesh->topology().dimension() < 3; }
+
+    Color color_of(Index element) const {
+        if (!quality) return neutral_color;
+        const ElementQuality& its = quality->elements[element];
+        return quality_color(its.scaled_jacobian, its.validity);
+    }
+
+    void apply_options() {
+        const Color& background = options.background;
+        renderer->SetBackground(background[0], background[1], background[2]);
+        edges.set_style(
+            {.color = options.edge_color, .opacity = 0.75, .width = 1.1, .depth_bias = 4e-4, .fades = true});
+        boundary.set_style({.color = options.edge_color, .width = 1.6, .depth_bias = 5e-4});
+        edges.actor()->SetVisibility(options.show_edges && tessellation);
+        boundary.actor()->SetVisibility(tessellation && is_flat());
+        highlight_halo.set_style({.color = background, .width = 6.5, .cap = 1.0, .is_on_top = true});
+        highlight.set_style({.color = accent_color, .width = 3.0, .cap = 1.0, .is_on_top = true});
+        nodes.set_colors(options.edge_color, background, options.edge_color);
+        nodes.set_visible(options.show_nodes);
+        marks.set_background(background);
+        legend.set_colors(background, options.foreground);
+        legend.set_visible(options.show_legend);
+        axes.set_colors(background, options.foreground);
+    }
+
+    /// Makes the drawing of the mesh anew, or moves it if nothing but positions has changed.
+    void draw_mesh(bool may_move) {
+        std::vector<bool> now_visible = find_visible(*mesh, options.clip);
+        const bool moves =
+            may_move && tessellation && now_visible == visible && tessellation->is_fine_enough(mesh->coordinates());
+        visible = std::move(now_visible);
+        if (moves)
+            tessellation->move(mesh->coordinates());
+        else
+            tessellation = std::make_unique<Tessellation>(*mesh, visible);
+        surface.set_lit(!is_flat());
+        surface.set_surface(*tessellation, !moves);
+        surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
+        frame.place(surface.actor(), tessellation->origin());
+        const std::vector<float> spacing = line_spacing(*mesh, *tessellation);
+        typical_spacing = median(spacing) / frame.size;
+        edges.set_lines(select_lines(*tessellation, spacing, false), 1.0 / frame.size);
+        boundary.set_lines(select_lines(*tessellation, spacing, true), 1.0 / frame.size);
+        frame.place(edges.actor(), tessellation->origin());
+        frame.place(boundary.actor(), tessellation->origin());
+        nodes.set_nodes(*mesh, *tessellation, frame);
+        if (quality)
+            marks.set_mesh(*mesh, *quality, visible, frame);
+        else
+            marks.clear();
+        draw_highlight();
+        set_camera_content();
+        apply_options();
+    }
+
+    void set_camera_content() {
+        std::vector<float> points;
+        const Eigen::RowVector3d offset = frame.to_world(tessellation->origin());
+        for (const auto* source : {&tessellation->surface_points(), &tessellation->edge_points()})
+            for (std::size_t i = 0; i < source->size(); ++i)
+                points.push_back(
+                    static_cast<float>((*source)[i] / frame.size + offset[static_cast<Eigen::Index>(i % 3)]));
+        camera.set_content(std::move(points));
+    }
+
+    void draw_highlight() {
+        Polylines lines;
+        Eigen::RowVector3d origin = frame.origin;
+        std::vector<bool> flags(mesh ? static_cast<std::size_t>(mesh->topology().element_count()) : 0, false);
+        bool has_any = false;
+        for (Index element : highlighted)
+            if (element >= 0 && static_cast<std::size_t>(element) < flags.size()) flags[element] = has_any = true;
+        if (has_any) {
+            // Every element on its own, so that the sides between two of them are drawn as well.
+            const Tessellation outline(*mesh, flags);
+            lines.points = outline.edge_points();
+            lines.offsets = outline.line_offsets();
+            origin = outline.origin();
+        }
+        for (StrokeActor* stroke : {&highlight_halo, &highlight}) {
+            stroke->set_lines(lines, 1.0 / frame.size);
+            frame.place(stroke->actor(), origin);
+        }
+    }
+
+    void clear() {
+        tessellation.reset();
+        visible.clear();
+        surface.clear();
+        for (StrokeActor* stroke : {&edges, &boundary, &highlight_halo, &highlight}) stroke->clear();
+        nodes.set_visible(false);
+        marks.clear();
+        camera.set_content({});
+    }
+
+    void prepare_frame() {
+        const double ratio = options.pixel_ratio;
+        axes.set_visible(mesh && !is_flat());
+        camera.set_right_margin(legend.width(ratio));
+        camera.prepare_frame();
+        const ViewMetrics view = camera.metrics(ratio);
+        surface.update(view);
+        for (StrokeActor* stroke : {&edges, &boundary, &highlight_halo, &highlight}) stroke->update(view);
+        const double focal_distance = view.is_parallel ? 1.0 : camera.distance();
+        nodes.update(view, typical_spacing, focal_distance);
+        marks.update(view);
+        legend.update(view);
+        axes.update(view);
+    }
+
+    std::optional<Pick> pick(double x, double y) const {
+        if (!tessellation) return std::nullopt;
+        return pick_surface(*tessellation, frame, camera.metrics(options.pixel_ratio), x, y, [this](Index element) {
+            return quality && quality->elements[element].validity == Validity::invalid ? 1 : 0;
+        });
+    }
+};
+
+MeshScene::MeshScene() : parts_(std::make_unique<Parts>()) {}
+
+MeshScene::~MeshScene() = default;
+
+vtkRenderer* MeshScene::renderer() const {
+    return parts_->renderer;
+}
+
+void MeshScene::set_mesh(const CurvedMesh* mesh, const QualityReport* quality) {
+    Parts& parts = *parts_;
+    if (mesh && quality && quality->elements.size() != static_cast<std::size_t>(mesh->topology().element_count()))
+        throw InvalidInput("The quality report to be drawn belongs to a mesh with another number of elements.");
+    const bool has_same_topology = mesh && parts.mesh && mesh->shared_topology() == parts.mesh->shared_topology();
+    parts.mesh.reset();
+    parts.quality.reset();
+    if (mesh) parts.mesh = *mesh;
+    if (mesh && quality) parts.quality = *quality;
+    parts.legend.set_summary(parts.quality ? std::optional(parts.quality->summary) : std::nullopt);
+    if (!mesh) {
+        parts.highlighted.clear();
+        parts.clear();
+        return;
+    }
+    if (!has_same_topology) {
+        const auto box = bounding_box(*mesh);
+        const double diagonal = (box.row(1) - box.row(0)).norm();
+        parts.frame = {0.5 * (box.row(0) + box.row(1)), diagonal > 0.0 ? diagonal : 1.0};
+        parts.highlighted.clear();
+    }
+    parts.draw_mesh(has_same_topology);
+    if (!has_same_topology) {
+        parts.camera.set_flat(parts.is_flat());
+        look(ViewDirection::isometric);
+    }
+}
+
+void MeshScene::set_options(const SceneOptions& options) {
+    Parts& parts = *parts_;
+    const std::optional<ClipPlane> before = parts.options.clip;
+    parts.options = options;
+    const bool is_clip_changed =
+        before.has_value() != options.clip.has_value() ||
+        (before && (before->normal != options.clip->normal || before->position != options.clip->position));
+    if (parts.mesh && is_clip_changed)
+        parts.draw_mesh(true);
+    else
+        parts.apply_options();
+}
+
+const SceneOptions& MeshScene::options() const {
+    return parts_->options;
+}
+
+void MeshScene::set_highlighted_elements(const std::vector<Index>& elements) {
+    parts_->highlighted = elements;
+    parts_->draw_highlight();
+}
+
+void MeshScene::look(ViewDirection direction) {
+    parts_->camera.set_right_margin(parts_->legend.width(parts_->options.pixel_ratio));
+    parts_->camera.look(direction);
+}
+
+void MeshScene::focus_element(Index element) {
+    const Parts& parts = *parts_;
+    if (!parts.mesh || element < 0 || element >= parts.mesh->topology().element_count()) return;
+    const Eigen::MatrixX3d x = parts.mesh->element_coordinates(element);
+    const Eigen::RowVector3d center = 0.5 * (x.colwise().minCoeff() + x.colwise().maxCoeff());
+    const double radius = (x.rowwise() - center).rowwise().norm().maxCoeff();
+    Eigen::RowVector3d facing = Eigen::RowVector3d::Zero();
+    const Tessellation& drawn = *parts.tessellation;
+    for (std::size_t triangle = 0; triangle < drawn.triangle_elements().size(); ++triangle) {
+        if (drawn.triangle_elements()[triangle] != element) continue;
+        const float* normal = drawn.surface_normals().data() + 3 * drawn.triangles()[3 * triangle];
+        facing += Eigen::RowVector3d(normal[0], normal[1], normal[2]);
+    }
+    parts_->camera.focus(parts.frame.to_world(center), radius / parts.frame.size, facing);
+}
+
+std::optional<Index> MeshScene::pick_element(double x, double y) const {
+    const std::optional<Pick> pick = parts_->pick(x, y);
+    return pick ? std::optional(pick->element) : std::nullopt;
+}
+
+void MeshScene::copy_view(const MeshScene& other) {
+    if (!parts_->mesh || !other.parts_->mesh) return;
+    parts_->camera.copy_view(other.parts_->camera, other.parts_->frame, parts_->frame);
+}
+
+void MeshScene::attach_interactor(vtkRenderWindowInteractor* interactor) {
+    Parts& parts = *parts_;
+    if (parts.style) parts.style->connect(nullptr, {});
+    parts.style = vtkSmartPointer<SceneInteractorStyle>::New();
+    parts.style->connect(&parts.camera, [&parts](double x, double y) -> std::optional<double> {
+        const std::optional<Pick> pick = parts.pick(x, y);
+        return pick ? std::optional(pick->depth) : std::nullopt;
+    });
+    interactor->SetInteractorStyle(parts.style);
+}
+
+}  // namespace curvewright

@@ -29,7 +29,7 @@ struct SceneOptions {
     Color background{1.0, 1.0, 1.0};
     Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
     Color edge_color{0.25, 0.27, 0.30};
-    double pixel_ratio = 1.0;         ///< device pixels per unit: scales lines, points, text
+    double pixel_ratio = 1.0;  ///< device pixels per unit: scales lines, points, text
 };
 
 enum class ViewDirection { fit, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, isometric };
@@ -58,6 +58,9 @@ class MeshScene {
     void look(ViewDirection direction);
     /// Moves the camera so that the element fills a good part of the view.
     void focus_element(Index element);
+
+    /// Takes over the view of another scene that shows the same mesh or another state of it.
+    void copy_view(const MeshScene& other);
 
     /// Element under a display position (device pixels, origin bottom left); none = background.
     std::optional<Index> pick_element(double x, double y) const;

@@ -1,0 +1,40 @@
+#include "app/cli/command.h"
+
+#include <map>
+
+
+namespace curvewright::cli {
+
+WriteOptions OutputOptions::write_options(const QualityReport* quality, const Coordinates* reference) const {
+    WriteOptions options;
+    options.format = format;
+    if (binary) options.binary = true;
+    options.quality = quality;
+    options.reference = reference;
+    return options;
+}
+
+CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description) {
+    CLI::App* command = app.add_subcommand(name, description);
+    command->add_flag("--json", invocation.common.json, "One JSON object on standard output, nothing else there");
+    command->add_option("--threads", invocation.common.threads, "Number of threads (default: one per processor)")
+        ->check(CLI::Range(1, 1024));
+    command->add_flag("--quiet", invocation.common.quiet, "No progress on standard error");
+    return command;
+}
+
+void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional) {
+    command.add_option(is_positional ? "output" : "-o,--output", options.file, "File to write (.msh, .vtu, .vtk)")
+        ->required()
+        ->type_name("OUT");
+    static const std::map<std::string, MeshFormat> formats = {
+        {"msh2", MeshFormat::msh2}, {"msh4", MeshFormat::msh4}, {"vtu", MeshFormat::vtu}, {"vtk", MeshFormat::vtk}};
+    command
+        .add_option_function<std::string>(
+            "--format", [&options](const std::string& text) { options.format = formats.at(text); },
+            "Format, whatever the suffix says: msh2, msh4, vtu or vtk")
+        ->check(CLI::IsMember({"msh2", "msh4", "vtu", "vtk"}));
+    command.add_flag("--binary", options.binary, "Binary instead of text (vtu, vtk)");
+}
+
+}  // namespace curvewright::cli

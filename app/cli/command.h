@@ -1,0 +1,56 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json_fwd.hpp>
+
+#include "core/base/task.h"
+#include "core/io/mesh_io.h"
+
+namespace curvewright::cli {
+
+/// Exit statuses, part of the interface.
+enum ExitStatus { exit_done = 0, exit_bad_input = 1, exit_wrong_usage = 2, exit_not_valid = 3, exit_cancelled = 130 };
+
+/// What every command takes.
+struct CommonOptions {
+    bool json = false;
+    bool quiet = false;
+    int threads = 0;  ///< 0 = one per processor
+};
+
+/// What the user asked for: filled by the options of the chosen command; action runs it and gives the exit status.
+struct Invocation {
+    CommonOptions common;
+    std::function<int(const Invocation&, const TaskContext&)> action;
+};
+
+/// Output file and its format.
+struct OutputOptions {
+    std::filesystem::path file;
+    std::optional<MeshFormat> format;
+    bool binary = false;
+
+    WriteOptions write_options(const QualityReport* quality, const Coordinates* reference) const;
+};
+
+/// Adds a sub-command with the common options.
+CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description);
+/// Adds -o/--output (or a positional, for convert), --format and --binary.
+void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
+
+// One per file.
+void add_info(CLI::App& app, Invocation& invocation);
+void add_quality(CLI::App& app, Invocation& invocation);
+void add_elevate(CLI::App& app, Invocation& invocation);
+void add_deform(CLI::App& app, Invocation& invocation);
+void add_warp(CLI::App& app, Invocation& invocation);
+void add_untangle(CLI::App& app, Invocation& invocation);
+void add_convert(CLI::App& app, Invocation& invocation);
+void add_render(CLI::App& app, Invocation& invocation);
+
+}  // namespace curvewright::cli

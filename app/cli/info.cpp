@@ -1,0 +1,85 @@
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "app/cli/output.h"
+
+namespace curvewright::cli {
+namespace {
+
+/// Number of cells in a group.
+long cells_of_group(const MeshTopology& topology, const PhysicalGroup& group) {
+    long count = 0;
+    for (const Entity& entity : topology.entities()) {
+        if (entity.dimension != group.dimension) continue;
+        if (std::find(entity.physical_tags.begin(), entity.physical_tags.end(), group.tag) == entity.physical_tags.end())
+            continue;
+        for (const ElementBlock& block : topology.blocks())
+            if (dimension(block.type.shape) == group.dimension && block.entity_tag == entity.tag) count += block.size();
+    }
+    return count;
+}
+
+int run(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context) {
+    const Stopwatch watch;
+    Json timings = Json::object();
+    const ReadResult input = read_input(file, invocation, context, timings);
+    const CurvedMesh& mesh = input.mesh;
+    const MeshTopology& topology = mesh.topology();
+    const auto box = bounding_box(mesh);
+    const std::string orientation = is_assessable(mesh) ? to_string(find_orientation(mesh)) : "not defined";
+    finish_timings(timings, watch);
+
+    Json types = Json::object(), groups = Json::array();
+    for (const ElementBlock& block : topology.blocks()) {
+        const std::string key = name(block.type);
+        types[key] = types.value(key, 0L) + block.size();
+    }
+    for (const PhysicalGroup& group : topology.groups()) {
+        const auto nodes = topology.find_group_nodes(MeshTopology::display_name(group));
+        groups.push_back({{"name", group.name},
+                          {"dimension", group.dimension},
+                          {"tag", group.tag},
+                          {"cells", cells_of_group(topology, group)},
+                          {"nodes", nodes ? nodes->size() : 0}});
+    }
+    if (invocation.common.json) {
+        const Json json = {{"mesh", mesh_json(file, mesh)},
+                           {"format", to_string(input.format)},
+                           {"cells", types},
+                           {"groups", groups},
+                           {"entities", topology.entities().size()},
+                           {"orientation", orientation},
+                           {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
+                           {"notes", input.notes},
+                           {"timings", timings}};
+        fmt::print("{}\n", json.dump(2));
+        return exit_done;
+    }
+    fmt::print("{} ({})\n", file.string(), to_string(input.format));
+    fmt::print("  {}D, order {}: {}\n", topology.dimension(), topology.order(), mesh_line(mesh));
+    for (const auto& [type, count] : types.items()) fmt::print("  cells        {} {}\n", count.get<long>(), type);
+    fmt::print("  orientation  {}\n", orientation);
+    fmt::print("  box          [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]\n", box(0, 0), box(1, 0), box(0, 1),
+               box(1, 1), box(0, 2), box(1, 2));
+    for (const Json& group : groups)
+        fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
+                   group["name"].get<std::string>().empty() ? "unnamed" : group["name"].get<std::string>(),
+                   group["dimension"].get<int>(), group["tag"].get<int>(), group["cells"].get<long>(),
+                   group["nodes"].get<std::size_t>());
+    return exit_done;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Invocation& invocation) {
+    auto* command = add_command(app, invocation, "info", "Type, order, counts, groups, orientation, bounding box");
+    auto file = std::make_shared<std::filesystem::path>();
+    command->add_option("mesh", *file, "Mesh (.msh, .vtu, .vtk)")->required()->type_name("MESH");
+    command->callback([&invocation, file] {
+        invocation.action = [file](const Invocation& i, const TaskContext& context) { return run(*file, i, context); };
+    });
+}
+
+}  // namespace curvewright::cli

@@ -1,0 +1,65 @@
+#include <csignal>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "app/cli/progress.h"
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
+namespace {
+
+using namespace curvewright;
+using namespace curvewright::cli;
+
+std::stop_source interrupt;
+
+void on_interrupt(int) { interrupt.request_stop(); }
+
+int run(const Invocation& invocation) {
+    set_thread_count(invocation.common.threads);
+    std::signal(SIGINT, on_interrupt);
+    std::signal(SIGTERM, on_interrupt);
+    ProgressBar progress(invocation.common.quiet);
+    return invocation.action(invocation, {interrupt.get_token(), progress.callback()});
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("Warps, untangles, certifies and converts curved high-order meshes.", "curvewright-cli");
+    app.set_version_flag("--version", CURVEWRIGHT_VERSION);
+    app.require_subcommand(1);
+    app.footer("Exit status: 0 done; 1 bad input or a file that cannot be used; 2 wrong usage; 3 done, but elements are "
+               "invalid or undecided.");
+    Invocation invocation;
+    add_info(app, invocation);
+    add_quality(app, invocation);
+    add_elevate(app, invocation);
+    add_deform(app, invocation);
+    add_warp(app, invocation);
+    add_untangle(app, invocation);
+    add_convert(app, invocation);
+    add_render(app, invocation);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        // Help and version end with 0; CLI11's own numbers for the rest are not ours.
+        return app.exit(error) == 0 ? exit_done : exit_wrong_usage;
+    }
+    try {
+        return run(invocation);
+    } catch (const Cancelled&) {
+        fmt::print(stderr, "Cancelled; nothing was written.\n");
+        return exit_cancelled;
+    } catch (const std::bad_alloc&) {
+        fmt::print(stderr, "Out of memory; nothing was written.\n");
+        return exit_bad_input;
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "{}\n", error.what());
+        return exit_bad_input;
+    }
+}

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli/command.h"
+#include "core/base/stopwatch.h"
+#include "core/mesh/curved_mesh.h"
+#include "core/quality/quality.h"
+
+namespace curvewright::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// "mesh": file, dimension, order, elements, nodes, interior_nodes.
+Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh);
+/// "scaled_jacobian": min, mean, max, valid, invalid, undecided.
+Json summary_json(const QualitySummary& summary);
+/// "worst": at most 10 of element (tag), scaled_jacobian, center.
+Json worst_json(const CurvedMesh& mesh, const QualityReport& report);
+
+/// "P3, 30 triangles, 159 nodes (111 interior)".
+std::string mesh_line(const CurvedMesh& mesh);
+/// "min −0.222, mean 0.634, max 1.000; 28 valid, 2 invalid, 0 undecided" in ASCII.
+std::string summary_line(const QualitySummary& summary);
+
+/// Reads a mesh, prints the reader's notes on standard error unless --quiet, and stores the time as "read".
+ReadResult read_input(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context,
+                      Json& timings);
+/// assess_quality, timed as "certify" (added to what is there).
+QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
+                      const QualityOptions& options = {});
+/// Whether the quality of the mesh can be assessed at all.
+bool is_assessable(const CurvedMesh& mesh);
+/// Writes the mesh, timed as "write". quality may be null.
+void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
+                  const Coordinates* reference, Json& timings);
+/// Adds "total" to the timings.
+void finish_timings(Json& timings, const Stopwatch& watch);
+/// Sentence on standard error when the mesh is numbered clockwise or mixed; none otherwise or with --quiet.
+void warn_about_orientation(const QualityReport& report, const Invocation& invocation);
+/// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.
+int validity_status(const QualitySummary& summary);
+
+}  // namespace curvewright::cli

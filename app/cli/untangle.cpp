@@ -1,0 +1,108 @@
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "app/cli/output.h"
+#include "core/base/error.h"
+#include "core/io/atomic_file.h"
+#include "core/quality/shape_quality.h"
+#include "core/untangle/signed_angles.h"
+#include "core/untangle/trace.h"
+
+namespace curvewright::cli {
+namespace {
+
+struct Options {
+    std::filesystem::path mesh, trace;
+    OutputOptions output;
+    SignedAngleOptions signed_angles;
+};
+
+/// A trace file that becomes visible when it is complete.
+class TraceFile {
+  public:
+    explicit TraceFile(const std::filesystem::path& file) : file_(file), stream_(file_.path()), writer_(stream_) {
+        if (!stream_) throw InvalidInput(file.string(), 0, "the file cannot be written.");
+    }
+    UntangleObserver* observer() { return &writer_; }
+    void commit() {
+        stream_.close();
+        file_.commit();
+    }
+
+  private:
+    AtomicFile file_;
+    std::ofstream stream_;
+    TraceWriter writer_;
+};
+
+Json shape_json(const ShapeSummary& shape) { return {{"min", shape.min}, {"mean", shape.mean}}; }
+
+int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    const Stopwatch watch;
+    Json timings = Json::object();
+    const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
+    const QualityReport before = certify(input, context, timings);
+    warn_about_orientation(before, invocation);
+    std::optional<TraceFile> trace;
+    if (!options.trace.empty()) trace.emplace(options.trace);
+    const Stopwatch untangling;
+    const UntangleResult result =
+        untangle_signed_angles(input, options.signed_angles, trace ? trace->observer() : nullptr, context);
+    timings["untangle"] = untangling.seconds();
+    const CurvedMesh mesh = input.with_coordinates(result.coordinates);
+    const QualityReport after = certify(mesh, context, timings);
+    const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
+    const ShapeSummary shape = assess_shape(mesh, input.coordinates(), context);
+    write_output(options.output, mesh, &after, &input.coordinates(), timings);
+    if (trace) trace->commit();
+    finish_timings(timings, watch);
+
+    if (invocation.common.json) {
+        const Json json = {{"mesh", mesh_json(options.output.file, mesh)},
+                           {"method", "signed-angle"},
+                           {"beta", options.signed_angles.beta},
+                           {"passes", result.passes},
+                           {"stopped", to_string(result.reason)},
+                           {"scaled_jacobian", summary_json(after.summary)},
+                           {"shape", shape_json(shape)},
+                           {"before",
+                            {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
+                           {"worst", worst_json(mesh, after)},
+                           {"timings", timings}};
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
+        fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
+        fmt::print("{} {} ({}), {:.3f} s\n", result.passes, result.passes == 1 ? "pass" : "passes",
+                   to_string(result.reason), timings["untangle"].get<double>());
+    }
+    return validity_status(after.summary);
+}
+
+}  // namespace
+
+void add_untangle(CLI::App& app, Invocation& invocation) {
+    auto* command = add_command(app, invocation, "untangle", "Make invalid elements valid; the boundary stays");
+    auto options = std::make_shared<Options>();
+    command->add_option("mesh", options->mesh, "Mesh of triangles, order 2 or 3")->required()->type_name("IN");
+    add_output_options(*command, options->output);
+    command->add_option("--method", "signed-angle (default)")->check(CLI::IsMember({"signed-angle"}));
+    command
+        ->add_option("--beta", options->signed_angles.beta,
+                     "Weight of the angles against the displacement, in (0, 1]; small for stretched layers")
+        ->capture_default_str();
+    command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")->capture_default_str();
+    command->add_flag("--reject-worse-pass", options->signed_angles.reject_worse_pass,
+                      "Take back a pass that lowers the certified quality, and stop there");
+    command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")
+        ->type_name("FILE.jsonl");
+    command->callback([&invocation, options] {
+        invocation.action = [options](const Invocation& i, const TaskContext& context) {
+            return run(*options, i, context);
+        };
+    });
+}
+
+}  // namespace curvewright::cli

@@ -1,0 +1,113 @@
+#include "core/warp/warp.h"
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "app/cli/output.h"
+#include "core/io/deformation_file.h"
+
+namespace curvewright::cli {
+namespace {
+
+struct Options {
+    std::filesystem::path mesh, deformation;
+    OutputOptions output;
+    WarpOptions warp;
+};
+
+Json tags_json(const MeshTopology& topology, const std::vector<Index>& nodes) {
+    Json tags = Json::array();
+    for (Index node : nodes) tags.push_back(topology.node_tag(node).value);
+    return tags;
+}
+
+void report_nodes(const MeshTopology& topology, const std::vector<Index>& nodes, const std::string& what) {
+    if (nodes.empty()) return;
+    std::string list;
+    for (std::size_t i = 0; i < nodes.size() && i < 5; ++i)
+        list += fmt::format("{}{}", i > 0 ? ", " : "", topology.node_tag(nodes[i]).value);
+    fmt::print(stderr, "{} {} {} (node {}{})\n", nodes.size(), nodes.size() == 1 ? "node" : "nodes", what, list,
+               nodes.size() > 5 ? ", ..." : "");
+}
+
+int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    const Stopwatch watch;
+    Json timings = Json::object();
+    const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
+    const Deformation deformation = read_deformation(options.deformation, context);
+    const QualityReport before = certify(input, context, timings);
+    warn_about_orientation(before, invocation);
+    const WarpResult result = warp(input, apply_deformation(input, deformation), options.warp, context);
+    timings["neighbours"] = result.report.neighbours_seconds;
+    timings["weights"] = result.report.weights_seconds;
+    timings["solve"] = result.report.solve_seconds;
+    const CurvedMesh mesh = input.with_coordinates(result.coordinates);
+    const QualityReport after = certify(mesh, context, timings);
+    write_output(options.output, mesh, &after, &input.coordinates(), timings);
+    finish_timings(timings, watch);
+
+    const WarpReport& report = result.report;
+    if (!invocation.common.quiet) {
+        report_nodes(mesh.topology(), report.outside_hull,
+                     "outside the hull of the neighbours: affine weights were taken");
+        report_nodes(mesh.topology(), report.degenerate, "with neighbours that do not span the space");
+    }
+    if (invocation.common.json) {
+        const Json json = {{"mesh", mesh_json(options.output.file, mesh)},
+                           {"scaled_jacobian", summary_json(after.summary)},
+                           {"before", {{"scaled_jacobian", summary_json(before.summary)}}},
+                           {"worst", worst_json(mesh, after)},
+                           {"weights", to_string(options.warp.weighting)},
+                           {"solver",
+                            {{"name", to_string(report.solver)},
+                             {"iterations", report.iterations},
+                             {"residual", report.residual},
+                             {"note", report.solver_note}}},
+                           {"outside_hull", tags_json(mesh.topology(), report.outside_hull)},
+                           {"degenerate", tags_json(mesh.topology(), report.degenerate)},
+                           {"timings", timings}};
+        fmt::print("{}\n", json.dump(2));
+    } else {
+        fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
+        fmt::print("before  {}\nafter   {}\n{}\n", summary_line(before.summary), summary_line(after.summary),
+                   report.solver_note);
+    }
+    return validity_status(after.summary);
+}
+
+}  // namespace
+
+void add_warp(CLI::App& app, Invocation& invocation) {
+    auto* command = add_command(app, invocation, "warp", "Move the boundary and let the interior follow");
+    auto options = std::make_shared<Options>();
+    command->add_option("mesh", options->mesh, "Mesh")->required()->type_name("IN");
+    command->add_option("--deformation", options->deformation, "Operations (.json), node table (.csv) or a mesh")
+        ->required()
+        ->type_name("D");
+    add_output_options(*command, options->output);
+    command
+        ->add_option_function<std::string>(
+            "--weights",
+            [options](const std::string& text) {
+                options->warp.weighting = text == "affine" ? Weighting::affine : Weighting::convex;
+            },
+            "convex (default) or affine")
+        ->check(CLI::IsMember({"convex", "affine"}));
+    command
+        ->add_option_function<std::string>(
+            "--solver",
+            [options](const std::string& text) {
+                options->warp.solver = text == "direct"      ? SolverChoice::direct
+                                       : text == "iterative" ? SolverChoice::iterative
+                                                             : SolverChoice::automatic;
+            },
+            "auto (default: iterative, direct if that fails), direct or iterative")
+        ->check(CLI::IsMember({"auto", "direct", "iterative"}));
+    command->callback([&invocation, options] {
+        invocation.action = [options](const Invocation& i, const TaskContext& context) {
+            return run(*options, i, context);
+        };
+    });
+}
+
+}  // namespace curvewright::cli

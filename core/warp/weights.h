@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "core/base/task.h"
+#include "core/mesh/curved_mesh.h"
+#include "core/warp/neighbours.h"
+#include "core/warp/warp.h"
+
+namespace curvewright {
+
+/// How the weights of one patch came about.
+enum class PatchStatus {
+    regular,
+    outside_hull,  ///< convex weights asked for, but the node is not strictly inside the hull of its neighbours
+    degenerate,    ///< the neighbours do not span the space
+};
+
+/// Affine weights of least 2-norm (thesis 2.6-2.9): w = A^T (A A^T)^-1 b.
+/// offsets: neighbours × dimension (2 or 3), neighbour positions minus the node's, in any one unit. weights: as many as
+/// neighbours; sum 1 and reproduce the node unless the patch is degenerate (then the least-squares answer).
+/// The small Gram matrix is factored by Cholesky; a degenerate patch goes to a complete orthogonal decomposition.
+PatchStatus affine_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights);
+
+/// Convex weights of largest sum log w (thesis 2.14-2.18): positive, sum 1, reproduce the node.
+/// Instead of Newton's method on the KKT system (Alg. 3) this solves its dual: w_j = 1 / (n + g·y_j) with y_j the offsets,
+/// where g maximises sum log(n + g·y_j), a self-concordant problem in `dimension` unknowns. Damped Newton (Nesterov,
+/// Nemirovskii 1994) converges from g = 0 exactly if the node lies strictly inside the hull; otherwise the status is
+/// outside_hull and the weights are not written.
+PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights);
+
+/// Weights of all interior nodes, one per entry of sets.nodes.
+struct WeightTable {
+    std::vector<double> weights;
+    std::vector<PatchStatus> status;  ///< per interior node
+};
+/// Where convex weights do not exist, affine ones are taken. Multi-threaded. Throws Cancelled.
+WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, Weighting weighting,
+                            const TaskContext& context = {});
+
+}  // namespace curvewright

@@ -1,0 +1,155 @@
+#include "tests/support/mesh_factory.h"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+#include <Eigen/LU>
+
+#include "core/basis/lagrange.h"
+#include "core/mesh/elevate.h"
+
+namespace curvewright::testing {
+namespace {
+
+/// Collects cells of order 1 by entity and makes a mesh of them.
+class Builder {
+  public:
+    void add_group(int dimension, int tag, const std::string& name) {
+        data_.groups.push_back({dimension, tag, name});
+        data_.entities.push_back({dimension, tag, {tag}, {}, {}});
+    }
+    void add_cell(Shape shape, int entity, const std::vector<Index>& nodes) {
+        ElementBlock& block = blocks_[{dimension(shape), entity}];
+        block.type = {shape, 1};
+        block.entity_tag = entity;
+        block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
+        block.tags.push_back({next_tag_++});
+    }
+    CurvedMesh finish(const Coordinates& x) {
+        for (Eigen::Index i = 0; i < x.rows(); ++i) data_.node_tags.push_back({11 + i});
+        for (auto& [key, block] : blocks_) data_.blocks.push_back(std::move(block));
+        return {std::make_shared<const MeshTopology>(std::move(data_)), x};
+    }
+
+  private:
+    MeshData data_;
+    std::map<std::pair<int, int>, ElementBlock> blocks_;
+    std::int64_t next_tag_ = 101;
+};
+
+}  // namespace
+
+CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x) {
+    MeshData data;
+    ElementBlock block{type, 0, {}, {{1}}};
+    for (Index i = 0; i < x.rows(); ++i) {
+        data.node_tags.push_back({i + 1});
+        block.nodes.push_back(i);
+    }
+    data.blocks.push_back(block);
+    return {std::make_shared<const MeshTopology>(std::move(data)), x};
+}
+
+CurvedMesh square_mesh(int n, int order) {
+    Builder builder;
+    builder.add_group(1, 1, "bottom");
+    builder.add_group(1, 2, "right");
+    builder.add_group(1, 3, "top");
+    builder.add_group(1, 4, "left");
+    builder.add_group(2, 1, "domain");
+    const auto id = [n](int i, int j) { return j * (n + 1) + i; };
+    Coordinates x((n + 1) * (n + 1), 3);
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) x.row(id(i, j)) << double(i) / n, double(j) / n, 0.0;
+    for (int i = 0; i < n; ++i) {
+        builder.add_cell(Shape::line, 1, {id(i, 0), id(i + 1, 0)});
+        builder.add_cell(Shape::line, 2, {id(n, i), id(n, i + 1)});
+        builder.add_cell(Shape::line, 3, {id(i + 1, n), id(i, n)});
+        builder.add_cell(Shape::line, 4, {id(0, i + 1), id(0, i)});
+    }
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const Index a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
+            // Alternate the diagonal, so that no triangle has two sides on the boundary.
+            if ((i < n / 2) == (j < n / 2)) {
+                builder.add_cell(Shape::triangle, 1, {a, b, c});
+                builder.add_cell(Shape::triangle, 1, {a, c, d});
+            } else {
+                builder.add_cell(Shape::triangle, 1, {a, b, d});
+                builder.add_cell(Shape::triangle, 1, {b, c, d});
+            }
+        }
+    return elevate(builder.finish(x), order);
+}
+
+CurvedMesh cube_mesh(int n, int order) {
+    Builder builder;
+    const std::array<const char*, 6> names{"x0", "x1", "y0", "y1", "z0", "z1"};
+    for (int i = 0; i < 6; ++i) builder.add_group(2, i + 1, names[i]);
+    builder.add_group(3, 1, "domain");
+    const auto id = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+    Coordinates x((n + 1) * (n + 1) * (n + 1), 3);
+    for (int k = 0; k <= n; ++k)
+        for (int j = 0; j <= n; ++j)
+            for (int i = 0; i <= n; ++i) x.row(id(i, j, k)) << double(i) / n, double(j) / n, double(k) / n;
+    std::vector<std::array<Index, 4>> tetrahedra;
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                // Kuhn's six: one per order in which the three axes are walked.
+                std::array<int, 3> axes{0, 1, 2};
+                do {
+                    std::array<int, 3> at{i, j, k};
+                    std::array<Index, 4> tetrahedron{};
+                    tetrahedron[0] = id(at[0], at[1], at[2]);
+                    for (int step = 0; step < 3; ++step) {
+                        ++at[axes[step]];
+                        tetrahedron[step + 1] = id(at[0], at[1], at[2]);
+                    }
+                    Eigen::Matrix3d edges;
+                    for (int c = 0; c < 3; ++c) edges.row(c) = x.row(tetrahedron[c + 1]) - x.row(tetrahedron[0]);
+                    if (edges.determinant() < 0) std::swap(tetrahedron[2], tetrahedron[3]);
+                    tetrahedra.push_back(tetrahedron);
+                } while (std::next_permutation(axes.begin(), axes.end()));
+            }
+    constexpr std::array<std::array<int, 3>, 4> faces{{{0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 2, 1}}};
+    for (const auto& tetrahedron : tetrahedra)
+        for (const auto& face : faces)
+            for (int side = 0; side < 6; ++side) {
+                const bool is_on_side = std::all_of(face.begin(), face.end(), [&](int corner) {
+                    return x(tetrahedron[corner], side / 2) == side % 2;
+                });
+                if (is_on_side)
+                    builder.add_cell(Shape::triangle, side + 1,
+                                     {tetrahedron[face[0]], tetrahedron[face[1]], tetrahedron[face[2]]});
+            }
+    for (const auto& tetrahedron : tetrahedra)
+        builder.add_cell(Shape::tetrahedron, 1, {tetrahedron.begin(), tetrahedron.end()});
+    return elevate(builder.finish(x), order);
+}
+
+CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random) {
+    std::uniform_real_distribution<double> shift(-amplitude, amplitude);
+    Coordinates x = mesh.coordinates();
+    for (Index node : mesh.topology().interior_nodes())
+        for (int d = 0; d < mesh.topology().dimension(); ++d) x(node, d) += shift(random);
+    return mesh.with_coordinates(x);
+}
+
+Eigen::MatrixX3d random_simplex(ElementType type, double amplitude, std::mt19937& random) {
+    std::normal_distribution<double> normal;
+    const int dim = dimension(type.shape);
+    Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
+    do {
+        for (int r = 0; r < dim; ++r)
+            for (int c = 0; c < dim; ++c) map(r, c) = normal(random);
+    } while (map.topLeftCorner(dim, dim).determinant() < 0.2);
+    Eigen::MatrixX3d x = reference_nodes(type) * map.transpose();
+    if (type.order > 1)
+        for (Eigen::Index i = 0; i < x.rows(); ++i)
+            for (int d = 0; d < dim; ++d) x(i, d) += amplitude / (type.order * type.order) * normal(random);
+    return x;
+}
+
+}  // namespace curvewright::testing

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <random>
+#include <vector>
+
+#include "core/mesh/curved_mesh.h"
+
+namespace curvewright::testing {
+
+/// One element with the given node positions (node_count × 3, this program's order); tags 1, 2, ….
+CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x);
+
+/// The unit square as n × n squares of two triangles each, straight-sided of the given order. Boundary lines are in the
+/// groups "bottom", "right", "top", "left", triangles in "domain". Node and element tags start at 11 and 101.
+CurvedMesh square_mesh(int n, int order);
+
+/// The unit cube as n × n × n cubes of six tetrahedra each; boundary triangles in the groups "x0", "x1", "y0", …, "z1".
+CurvedMesh cube_mesh(int n, int order);
+
+/// Moves every interior node by a uniformly random vector of components within ±amplitude (2D: in the plane).
+CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random);
+
+/// A random well-shaped simplex with its high-order nodes moved at random by ±amplitude / order^2.
+Eigen::MatrixX3d random_simplex(ElementType type, double amplitude, std::mt19937& random);
+
+}  // namespace curvewright::testing

@@ -1,0 +1,88 @@
+#include "core/basis/bernstein.h"
+
+#include <cmath>
+#include <random>
+
+#include <gtest/gtest.h>
+
+#include "core/basis/lagrange.h"
+
+namespace curvewright {
+namespace {
+
+double evaluate(const BernsteinSimplex& form, const std::vector<double>& coefficients, const std::array<double, 4>& l) {
+    double value = 0.0;
+    for (int i = 0; i < form.size(); ++i) {
+        double term = coefficients[i] * form.multinomials()[i];
+        for (int k = 0; k < 4; ++k)
+            for (int power = 0; power < form.indices()[i][k]; ++power) term *= l[k];
+        value += term;
+    }
+    return value;
+}
+
+std::array<double, 4> random_point(int dim, std::mt19937& random) {
+    std::exponential_distribution<double> exponential;
+    std::array<double, 4> l{};
+    double sum = 0.0;
+    for (int i = 0; i <= dim; ++i) sum += l[i] = exponential(random);
+    for (double& v : l) v /= sum;
+    return l;
+}
+
+TEST(BernsteinSimplex, FunctionsSumToOne) {
+    std::mt19937 random(1);
+    for (int dim = 1; dim <= 3; ++dim)
+        for (int degree : {0, 1, 2, 5, 9}) {
+            const auto& form = BernsteinSimplex::get(dim, degree);
+            const std::vector<double> ones(form.size(), 1.0);
+            EXPECT_NEAR(evaluate(form, ones, random_point(dim, random)), 1.0, 1e-12);
+        }
+}
+
+TEST(BernsteinSimplex, BisectionKeepsThePolynomial) {
+    std::mt19937 random(2);
+    std::normal_distribution<double> normal;
+    for (int dim = 1; dim <= 3; ++dim)
+        for (int degree : {1, 3, 6})
+            for (int a = 0; a <= dim; ++a)
+                for (int b = 0; b <= dim; ++b) {
+                    if (a == b) continue;
+                    const auto& form = BernsteinSimplex::get(dim, degree);
+                    std::vector<double> c(form.size()), near_a(form.size()), near_b(form.size());
+                    for (double& v : c) v = normal(random);
+                    form.bisect(a, b, c.data(), near_a.data(), near_b.data());
+                    // A point of the half near a, in the half's own and in the whole's barycentric coordinates.
+                    const auto half = random_point(dim, random);
+                    auto whole = half;
+                    whole[a] += 0.5 * half[b];
+                    whole[b] *= 0.5;
+                    EXPECT_NEAR(evaluate(form, near_a, half), evaluate(form, c, whole), 1e-12);
+                    whole = half;
+                    whole[b] += 0.5 * half[a];
+                    whole[a] *= 0.5;
+                    EXPECT_NEAR(evaluate(form, near_b, half), evaluate(form, c, whole), 1e-12);
+                }
+}
+
+TEST(LagrangeToBernstein, BothFormsHaveTheSameValues) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    for (const Shape shape : {Shape::line, Shape::triangle, Shape::tetrahedron})
+        for (int order = 1; order <= max_order; ++order) {
+            const ElementType type{shape, order};
+            const int dim = dimension(shape);
+            const auto& form = BernsteinSimplex::get(dim, order);
+            Eigen::VectorXd nodal(form.size());
+            for (auto& v : nodal) v = normal(random);
+            const Eigen::VectorXd bezier = lagrange_to_bernstein(type) * nodal;
+            const auto l = random_point(dim, random);
+            const Eigen::RowVector3d point(l[1], l[2], l[3]);
+            const double expected = lagrange_basis(type, point).values.row(0) * nodal;
+            const double actual = evaluate(form, {bezier.begin(), bezier.end()}, l);
+            EXPECT_NEAR(actual, expected, 1e-11 * std::max(1.0, bezier.cwiseAbs().maxCoeff())) << name(type);
+        }
+}
+
+}  // namespace
+}  // namespace curvewright

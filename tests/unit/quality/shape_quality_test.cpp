@@ -1,0 +1,51 @@
+#include "core/quality/shape_quality.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "core/base/error.h"
+#include "tests/support/mesh_factory.h"
+
+namespace curvewright {
+namespace {
+
+using testing::cube_mesh;
+using testing::square_mesh;
+
+TEST(ShapeQuality, SimilarElementsHaveMeanRatioOne) {
+    for (const CurvedMesh& mesh : {square_mesh(2, 3), cube_mesh(1, 2)}) {
+        const Coordinates larger = 3.0 * mesh.coordinates();
+        const ShapeSummary shape = assess_shape(mesh.with_coordinates(larger), mesh.coordinates());
+        EXPECT_NEAR(shape.min, 1.0, 1e-10);
+        EXPECT_NEAR(shape.mean, 1.0, 1e-10);
+    }
+}
+
+TEST(ShapeQuality, StretchingByAFactorGivesTheKnownRatio) {
+    const double s = 3.0;
+    Coordinates x = square_mesh(2, 2).coordinates();
+    x.col(0) *= s;  // T = diag(s, 1): 2 s / (s^2 + 1)
+    EXPECT_NEAR(assess_shape(square_mesh(2, 2).with_coordinates(x), square_mesh(2, 2).coordinates()).min,
+                2 * s / (s * s + 1), 1e-12);
+    Coordinates y = cube_mesh(1, 2).coordinates();
+    y.col(0) *= s;  // T = diag(s, 1, 1): 3 s^(2/3) / (s^2 + 2)
+    EXPECT_NEAR(assess_shape(cube_mesh(1, 2).with_coordinates(y), cube_mesh(1, 2).coordinates()).min,
+                3 * std::pow(s, 2.0 / 3.0) / (s * s + 2), 1e-12);
+}
+
+TEST(ShapeQuality, TangledElementIsNegative) {
+    std::mt19937 random(2);
+    const CurvedMesh mesh = square_mesh(3, 2);
+    EXPECT_LT(assess_shape(testing::shaken(mesh, 0.3, random), mesh.coordinates()).min, 0.0);
+}
+
+TEST(ShapeQuality, FlatIdealIsNamed) {
+    const CurvedMesh mesh = square_mesh(2, 2);
+    Coordinates flat = mesh.coordinates();
+    flat.col(1).setZero();
+    EXPECT_THROW(assess_shape(mesh, flat), InvalidInput);
+}
+
+}  // namespace
+}  // namespace curvewright

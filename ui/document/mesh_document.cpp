@@ -1,0 +1,85 @@
+#include "ui/document/mesh_document.h"
+
+#include <QFileInfo>
+#include <QUndoCommand>
+
+namespace curvewright {
+
+/// One step of the history. Undoing and redoing change nothing themselves: the document reads the state off the step
+/// that the history stands on, so that a jump over many steps shows one change.
+class MeshDocument::StateCommand : public QUndoCommand {
+  public:
+    StateCommand(const QString& name, MeshState before, MeshState after)
+        : QUndoCommand(name), before_(std::move(before)), after_(std::move(after)) {}
+
+    const MeshState& before() const { return before_; }
+    const MeshState& after() const { return after_; }
+
+  private:
+    MeshState before_, after_;
+};
+
+MeshDocument::MeshDocument(QObject* parent) : QObject(parent) {
+    connect(&history_, &QUndoStack::indexChanged, this, &MeshDocument::follow_history);
+    connect(&history_, &QUndoStack::cleanChanged, this, [this] { emit dirty_changed(is_dirty()); });
+}
+
+MeshDocument::~MeshDocument() { history_.disconnect(this); }
+
+QString MeshDocument::file_name() const { return QFileInfo(file_path_).fileName(); }
+
+bool MeshDocument::is_deformation_applied() const {
+    return deformation_ && current_.applied_deformations.contains(deformation_->file_path);
+}
+
+void MeshDocument::open(OpenedMesh opened_mesh) {
+    const bool was_dirty = is_dirty();
+    {
+        const QSignalBlocker blocker(history_);
+        history_.clear();
+        history_.setClean();
+    }
+    original_ = before_ = current_ = std::move(opened_mesh.state);
+    file_path_ = std::move(opened_mesh.file_path);
+    notes_ = std::move(opened_mesh.notes);
+    deformation_.reset();
+    emit opened();
+    emit deformation_changed();
+    emit file_path_changed();
+    emit history_.indexChanged(0);
+    emit history_.canUndoChanged(false);
+    emit history_.canRedoChanged(false);
+    if (was_dirty) emit dirty_changed(false);
+}
+
+void MeshDocument::close() { open({}); }
+
+void MeshDocument::apply(const QString& name, MeshState state) {
+    Q_ASSERT(has_mesh() && state.mesh && state.mesh->topology().node_count() == current_.mesh->topology().node_count());
+    history_.push(new StateCommand(name, current_, std::move(state)));
+}
+
+void MeshDocument::set_deformation(LoadedDeformation deformation) {
+    deformation_ = std::move(deformation);
+    emit deformation_changed();
+}
+
+void MeshDocument::mark_saved(const QString& file_path) {
+    file_path_ = file_path;
+    history_.setClean();
+    emit file_path_changed();
+}
+
+void MeshDocument::follow_history() {
+    const int index = history_.index();
+    if (index == 0) {
+        current_ = before_ = original_;
+    } else {
+        const auto* step = static_cast<const StateCommand*>(history_.command(index - 1));
+        current_ = step->after();
+        before_ = step->before();
+    }
+    emit state_changed();
+}
+
+}  // namespace curvewright

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include <QObject>
+#include <QString>
+#include <QStringList>
+#include <QUndoStack>
+
+#include "core/deform/deformation.h"
+#include "core/mesh/curved_mesh.h"
+#include "core/quality/quality.h"
+
+namespace curvewright {
+
+/// A mesh with its certified quality at one point of the history. Immutable; states share their topology, so a state
+/// costs one coordinate array and one report.
+struct MeshState {
+    std::shared_ptr<const CurvedMesh> mesh;
+    /// Report of this very mesh; null if its elements cannot be assessed (see quality_note).
+    std::shared_ptr<const QualityReport> quality;
+    /// Why there is no report; empty if there is one.
+    QString quality_note;
+    /// The deformations that were applied on the way from the opened mesh to this state.
+    QStringList applied_deformations;
+};
+
+/// A mesh as a reader and the quality assessment leave it: what MeshDocument::open takes.
+struct OpenedMesh {
+    MeshState state;
+    QString file_path;
+    QStringList notes;  ///< what the reader passed over or repaired
+};
+
+/// A deformation and the file that it came from.
+struct LoadedDeformation {
+    std::shared_ptr<const Deformation> deformation;
+    QString file_path;
+};
+
+/// The open mesh, its history and the loaded deformation. Qt core (and QtGui's undo stack) only: no widgets, no VTK.
+/// All members belong to the window's thread; jobs work on copies of state(), which are immutable.
+class MeshDocument : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit MeshDocument(QObject* parent = nullptr);
+    ~MeshDocument() override;
+
+    bool has_mesh() const { return current_.mesh != nullptr; }
+    /// The present state; its mesh is null if no mesh is open.
+    const MeshState& state() const { return current_; }
+    /// The state as the file had it.
+    const MeshState& original() const { return original_; }
+    /// The state that the last operation started from; the opened one if there is no operation.
+    const MeshState& before() const { return before_; }
+
+    /// Full path of the mesh file ("" = none) and its last component.
+    const QString& file_path() const { return file_path_; }
+    QString file_name() const;
+    const QStringList& notes() const { return notes_; }
+
+    const std::optional<LoadedDeformation>& deformation() const { return deformation_; }
+    /// True if the loaded deformation was already applied on the way to the present state.
+    bool is_deformation_applied() const;
+
+    QUndoStack* history() { return &history_; }
+    const QUndoStack* history() const { return &history_; }
+    bool is_dirty() const { return has_mesh() && !history_.isClean(); }
+
+    /// Replaces everything by a newly read mesh; the history and the deformation start anew.
+    void open(OpenedMesh opened);
+    /// Back to no mesh.
+    void close();
+    /// Adds one step to the history. pre: has_mesh(), as many nodes as the present mesh.
+    void apply(const QString& name, MeshState state);
+    void set_deformation(LoadedDeformation deformation);
+    /// The present state has been written to file_path.
+    void mark_saved(const QString& file_path);
+
+  signals:
+    /// Another mesh was opened, or the mesh was closed.
+    void opened();
+    /// state() or before() is another one than before (also emitted after opened()).
+    void state_changed();
+    void deformation_changed();
+    void dirty_changed(bool is_dirty);
+    void file_path_changed();
+
+  private:
+    class StateCommand;
+
+    void follow_history();
+
+    MeshState current_, original_, before_;
+    QString file_path_;
+    QStringList notes_;
+    std::optional<LoadedDeformation> deformation_;
+    QUndoStack history_;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <QString>
+
+namespace curvewright {
+
+/// Three significant digits with a true minus sign ("−0.122", "0.0031", "1.00"); "–" for a value that is no number.
+QString format_number(double value);
+/// An integer with thousands separators ("1,338").
+QString format_count(long long value);
+/// The number with 17 significant digits, for the clipboard.
+QString exact_number(double value);
+
+}  // namespace curvewright

@@ -1,0 +1,201 @@
+#include "ui/jobs/mesh_jobs.h"
+
+#include <filesystem>
+
+#include <QFileInfo>
+#include <QSet>
+
+#include "core/deform/deformation.h"
+#include "core/io/deformation_file.h"
+#include "ui/document/number_format.h"
+
+namespace curvewright {
+namespace {
+
+std::filesystem::path to_path(const QString& path) { return {path.toStdU16String()}; }
+
+/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason.
+MeshState make_state(CurvedMesh mesh, const TaskContext& context) {
+    MeshState state;
+    state.mesh = std::make_shared<const CurvedMesh>(std::move(mesh));
+    try {
+        state.quality = std::make_shared<const QualityReport>(assess_quality(*state.mesh, {}, context));
+    } catch (const Unsupported& problem) {
+        state.quality_note = QString::fromUtf8(problem.what());
+    }
+    return state;
+}
+
+Index moved_nodes(const Coordinates& a, const Coordinates& b) {
+    Index count = 0;
+    for (Eigen::Index row = 0; row < a.rows(); ++row) count += (a.row(row) != b.row(row));
+    return count;
+}
+
+}  // namespace
+
+MeshJobs::MeshJobs(MeshDocument& document, QObject* parent) : QObject(parent), document_(document) {}
+
+bool MeshJobs::open(OpenRequest request) {
+    const QString name = QFileInfo(request.mesh_path).fileName();
+    return runner_.start(tr("Opening %1").arg(name), [this, request = std::move(request)](const TaskContext& context) {
+        ReadResult read = read_mesh(to_path(request.mesh_path), context);
+        OpenedMesh opened;
+        opened.file_path = QFileInfo(request.mesh_path).absoluteFilePath();
+        for (const std::string& text : read.notes) opened.notes << QString::fromStdString(text);
+        opened.state = make_state(std::move(read.mesh), context);
+
+        std::optional<LoadedDeformation> loaded;
+        std::optional<MeshState> deformed;
+        if (!request.deformation_path.isEmpty()) {
+            auto deformation =
+                std::make_shared<const Deformation>(read_deformation(to_path(request.deformation_path), context));
+            loaded = LoadedDeformation{deformation, QFileInfo(request.deformation_path).absoluteFilePath()};
+            if (request.apply_deformation) {
+                const CurvedMesh& mesh = *opened.state.mesh;
+                deformed = make_state(mesh.with_coordinates(apply_deformation(mesh, *deformation)), context);
+                deformed->applied_deformations << loaded->file_path;
+            }
+        }
+        return [this, opened = std::move(opened), loaded, deformed, then = request.then] {
+            document_.open(opened);
+            if (loaded) document_.set_deformation(*loaded);
+            if (deformed)
+                document_.apply(tr("Deform boundary (%1)").arg(QFileInfo(loaded->file_path).fileName()), *deformed);
+            if (then) then();
+            if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));
+        };
+    });
+}
+
+bool MeshJobs::load_deformation(const QString& path) {
+    return runner_.start(tr("Reading %1").arg(QFileInfo(path).fileName()), [this, path](const TaskContext& context) {
+        auto deformation = std::make_shared<const Deformation>(read_deformation(to_path(path), context));
+        LoadedDeformation loaded{deformation, QFileInfo(path).absoluteFilePath()};
+        return [this, loaded] { document_.set_deformation(loaded); };
+    });
+}
+
+bool MeshJobs::run_step(const QString& title, bool applies_deformation,
+                        std::function<Step(const CurvedMesh&, const TaskContext&)> step) {
+    const MeshState start = document_.state();
+    QStringList applied = start.applied_deformations;
+    if (applies_deformation) applied << document_.deformation()->file_path;
+    return runner_.start(title, [this, start, applied, step = std::move(step)](const TaskContext& context) {
+        Step result = step(*start.mesh, context);
+        MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context);
+        state.applied_deformations = applied;
+        return [this, state = std::move(state), name = result.name, text = result.note] {
+            document_.apply(name, state);
+            if (!text.isEmpty()) emit note(text);
+        };
+    });
+}
+
+bool MeshJobs::deform() {
+    if (!why_not_deform().isEmpty()) return false;
+    const LoadedDeformation loaded = *document_.deformation();
+    const QString file = QFileInfo(loaded.file_path).fileName();
+    return run_step(tr("Deforming the boundary"), true, [loaded, file](const CurvedMesh& mesh, const TaskContext&) {
+        Step step;
+        step.coordinates = apply_deformation(mesh, *loaded.deformation);
+        step.name = tr("Deform boundary (%1)").arg(file);
+        step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
+                        .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
+        return step;
+    });
+}
+
+bool MeshJobs::warp(const WarpOptions& options) {
+    if (!why_not_warp().isEmpty()) return false;
+    const LoadedDeformation loaded = *document_.deformation();
+    return run_step(tr("Warping"), true, [loaded, options](const CurvedMesh& mesh, const TaskContext& context) {
+        WarpResult result =
+            curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), options, context);
+        const WarpReport& report = result.report;
+        Step step;
+        step.name = options.weighting == Weighting::convex ? tr("Warp, convex weights") : tr("Warp, affine weights");
+        step.note = tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
+        step.note += report.solver == SolverChoice::direct
+                         ? tr(" (direct solver).")
+                         : tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
+        if (!report.outside_hull.empty())
+            step.note += tr(" %1 nodes have no convex weights and took affine ones.")
+                             .arg(format_count(static_cast<long long>(report.outside_hull.size())));
+        if (!report.degenerate.empty())
+            step.note += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
+                             .arg(format_count(static_cast<long long>(report.degenerate.size())));
+        step.coordinates = std::move(result.coordinates);
+        return step;
+    });
+}
+
+bool MeshJobs::untangle(const SignedAngleOptions& options) {
+    if (!why_not_untangle().isEmpty()) return false;
+    return run_step(tr("Untangling"), false, [options](const CurvedMesh& mesh, const TaskContext& context) {
+        UntangleResult result = untangle_signed_angles(mesh, options, nullptr, context);
+        Step step;
+        step.name = tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
+        const QString passes = result.passes == 1 ? tr("1 pass") : tr("%1 passes").arg(format_count(result.passes));
+        switch (result.reason) {
+            case StopReason::converged: step.note = tr("Converged after %1.").arg(passes); break;
+            case StopReason::pass_limit: step.note = tr("Stopped at the limit of %1.").arg(passes); break;
+            case StopReason::no_progress:
+                step.note = tr("Stopped after %1: the last one made things worse and was taken back.").arg(passes);
+                break;
+        }
+        step.coordinates = std::move(result.coordinates);
+        return step;
+    });
+}
+
+bool MeshJobs::flip() {
+    if (!document_.has_mesh()) return false;
+    const MeshState start = document_.state();
+    return runner_.start(tr("Renumbering"), [this, start](const TaskContext& context) {
+        MeshState state = make_state(flip_orientation(*start.mesh), context);
+        state.applied_deformations = start.applied_deformations;
+        return [this, state] { document_.apply(tr("Flip the numbering of all elements"), state); };
+    });
+}
+
+bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool mark_saved) {
+    if (!document_.has_mesh()) return false;
+    const MeshState state = document_.state(), original = document_.original();
+    const QString name = QFileInfo(path).fileName();
+    return runner_.start(tr("Writing %1").arg(name), [=, this](const TaskContext& context) {
+        context.report("writing", 0.0);
+        WriteOptions options;
+        options.format = format;
+        options.quality = state.quality.get();
+        options.reference = &original.mesh->coordinates();
+        write_mesh(to_path(path), *state.mesh, options);
+        return [=, this] {
+            if (mark_saved) document_.mark_saved(QFileInfo(path).absoluteFilePath());
+            emit note(tr("Wrote %1.").arg(path));
+        };
+    });
+}
+
+QString MeshJobs::why_not_deform() const {
+    if (!document_.has_mesh()) return tr("Open a mesh first.");
+    if (!document_.deformation()) return tr("Load a deformation first.");
+    return {};
+}
+
+QString MeshJobs::why_not_warp() const { return why_not_deform(); }
+
+QString MeshJobs::why_not_untangle() const {
+    if (!document_.has_mesh()) return tr("Open a mesh first.");
+    const MeshTopology& topology = document_.state().mesh->topology();
+    for (const ElementBlock& block : topology.blocks()) {
+        if (dimension(block.type.shape) != topology.dimension()) continue;
+        if (block.type.shape != Shape::triangle || block.type.order < 2 || block.type.order > 3)
+            return tr("Signed angles untangle curved triangles of order 2 and 3; this mesh has %1 elements.")
+                .arg(QString::fromStdString(curvewright::name(block.type)));
+    }
+    if (!document_.state().quality) return document_.state().quality_note;
+    return {};
+}
+
+}  // namespace curvewright

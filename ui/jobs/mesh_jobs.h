@@ -1,0 +1,75 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <QObject>
+#include <QString>
+
+#include "core/io/mesh_io.h"
+#include "core/untangle/signed_angles.h"
+#include "core/warp/warp.h"
+#include "ui/document/mesh_document.h"
+#include "ui/jobs/job_runner.h"
+
+namespace curvewright {
+
+/// What to open.
+struct OpenRequest {
+    QString mesh_path;
+    QString deformation_path;  ///< "" = none
+    /// Apply the deformation to the boundary at once, as the first step of the history.
+    bool apply_deformation = false;
+    /// Called on the window's thread when the mesh is there, before finished().
+    std::function<void()> then;
+};
+
+/// The operations of the window on its document: each takes a snapshot of the present state, calls the core on a worker
+/// thread, certifies the result there, and becomes one step of the history. A failed or cancelled job changes nothing.
+/// Each returns false, and does nothing, while another job is running.
+class MeshJobs : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit MeshJobs(MeshDocument& document, QObject* parent = nullptr);
+
+    MeshDocument& document() { return document_; }
+    JobRunner& runner() { return runner_; }
+
+    bool open(OpenRequest request);
+    bool load_deformation(const QString& path);
+    /// Moves the boundary as the loaded deformation says; the interior stays.
+    bool deform();
+    /// Moves the boundary as the loaded deformation says, relative to the mesh as it is; the interior follows.
+    bool warp(const WarpOptions& options);
+    bool untangle(const SignedAngleOptions& options);
+    /// Numbers every element the other way round.
+    bool flip();
+    /// Writes the present state; VTU and VTK with quality and the displacement from the mesh as opened. mark_saved: the
+    /// file becomes the document's own.
+    bool write(const QString& path, std::optional<MeshFormat> format, bool mark_saved);
+
+    /// Why the operation cannot run on the present state, as a sentence; empty if it can.
+    QString why_not_deform() const;
+    QString why_not_warp() const;
+    QString why_not_untangle() const;
+
+  signals:
+    /// What a finished operation has to say, one line: "Moved 3,232 interior nodes, iterative solver, 41 iterations."
+    void note(const QString& text);
+
+  private:
+    /// A new state of the mesh and what to say about it.
+    struct Step {
+        Coordinates coordinates;
+        QString name;
+        QString note;
+    };
+    bool run_step(const QString& title, bool applies_deformation,
+                  std::function<Step(const CurvedMesh&, const TaskContext&)> step);
+
+    MeshDocument& document_;
+    JobRunner runner_;
+};
+
+}  // namespace curvewright

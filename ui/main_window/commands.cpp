@@ -1,0 +1,96 @@
+#include "ui/main_window/commands.h"
+
+#include <QAction>
+#include <QCoreApplication>
+#include <QKeySequence>
+
+namespace curvewright {
+namespace {
+
+#define TEXT(text) QT_TRANSLATE_NOOP("Command", text)
+
+// clang-format off
+const Command command_list[] = {
+    {CommandId::open, CommandMenu::file, "open", TEXT("&Open…"), TEXT("Open a mesh"), "open", "Ctrl+O", false, false, 1},
+    {CommandId::load_deformation, CommandMenu::file, "load_deformation", TEXT("Load &deformation…"), TEXT("Load a boundary deformation, a node table or a mesh with final positions"), "deformation", "Ctrl+L"},
+    {CommandId::save, CommandMenu::file, "save", TEXT("&Save"), TEXT("Save the mesh"), "save", "Ctrl+S", false, true, 1},
+    {CommandId::save_as, CommandMenu::file, "save_as", TEXT("Save &as…"), TEXT("Save the mesh under another name"), "", "Ctrl+Shift+S"},
+    {CommandId::export_mesh, CommandMenu::file, "export", TEXT("&Export…"), TEXT("Write a copy as VTU (with quality and displacement), MSH or VTK"), "export", "Ctrl+Shift+E", false, false, 1},
+    {CommandId::save_picture, CommandMenu::file, "save_picture", TEXT("Save &picture…"), TEXT("Save what the view shows as PNG"), "picture", "F12", false, false, 1},
+    {CommandId::close_mesh, CommandMenu::file, "close_mesh", TEXT("&Close mesh"), TEXT("Close the mesh and go back to the start page"), "", "Ctrl+W", false, true},
+    {CommandId::quit, CommandMenu::file, "quit", TEXT("&Quit"), TEXT("Leave the program"), "quit", "Ctrl+Q"},
+    {CommandId::undo, CommandMenu::edit, "undo", TEXT("&Undo"), TEXT("Undo the last step"), "undo", "Ctrl+Z", false, false, 2},
+    {CommandId::redo, CommandMenu::edit, "redo", TEXT("&Redo"), TEXT("Redo the step undone last"), "redo", "Ctrl+Y; Ctrl+Shift+Z", false, false, 2},
+    {CommandId::deform, CommandMenu::mesh, "deform", TEXT("&Deform boundary"), TEXT("Move the boundary as the deformation says; the interior stays"), "deform", "Ctrl+D", false, false, 3, true},
+    {CommandId::warp, CommandMenu::mesh, "warp", TEXT("&Warp"), TEXT("Move the boundary as the deformation says; the interior follows"), "warp", "Ctrl+R", false, false, 3, true},
+    {CommandId::untangle, CommandMenu::mesh, "untangle", TEXT("&Untangle"), TEXT("Move interior nodes until no element is tangled"), "untangle", "Ctrl+U", false, false, 3, true},
+    {CommandId::flip, CommandMenu::mesh, "flip", TEXT("&Flip numbering"), TEXT("Number every element the other way round"), "flip", "", false, true},
+    {CommandId::stop, CommandMenu::mesh, "stop", TEXT("&Stop"), TEXT("Stop the running job; the mesh stays as it is"), "stop", "Esc", false, true, 3, true},
+    {CommandId::fit, CommandMenu::view, "fit", TEXT("&Fit"), TEXT("Show the whole mesh"), "fit", "F; Home", false, false, 4},
+    {CommandId::look_front, CommandMenu::look, "look_front", TEXT("From the &front (+y)"), TEXT("Look along +y"), "", "Alt+Y"},
+    {CommandId::look_back, CommandMenu::look, "look_back", TEXT("From the &back (−y)"), TEXT("Look along −y"), "", "Alt+Shift+Y"},
+    {CommandId::look_left, CommandMenu::look, "look_left", TEXT("From the &left (+x)"), TEXT("Look along +x"), "", "Alt+X"},
+    {CommandId::look_right, CommandMenu::look, "look_right", TEXT("From the &right (−x)"), TEXT("Look along −x"), "", "Alt+Shift+X"},
+    {CommandId::look_top, CommandMenu::look, "look_top", TEXT("From the &top (−z)"), TEXT("Look along −z"), "", "Alt+Z"},
+    {CommandId::look_bottom, CommandMenu::look, "look_bottom", TEXT("From b&elow (+z)"), TEXT("Look along +z"), "", "Alt+Shift+Z"},
+    {CommandId::look_isometric, CommandMenu::look, "look_isometric", TEXT("&Isometric"), TEXT("Look from a corner"), "cube", "Alt+I"},
+    {CommandId::edges, CommandMenu::view, "edges", TEXT("&Edges"), TEXT("Show the edges of the elements"), "edges", "E", true, true, 4},
+    {CommandId::nodes, CommandMenu::view, "nodes", TEXT("&Nodes"), TEXT("Show the nodes"), "nodes", "N", true, false, 4},
+    {CommandId::clip, CommandMenu::view, "clip", TEXT("&Cut open"), TEXT("Hide the elements on one side of a plane (3D)"), "clip", "C", true, false, 4},
+    {CommandId::legend, CommandMenu::view, "legend", TEXT("&Legend"), TEXT("Show the scale of colours"), "legend", "L", true, false, 4},
+    {CommandId::theme_system, CommandMenu::theme, "theme_system", TEXT("Follow the &system"), TEXT("Light or dark, as the system is"), "", "", true},
+    {CommandId::theme_light, CommandMenu::theme, "theme_light", TEXT("&Light"), TEXT("Dark text on light ground"), "", "", true},
+    {CommandId::theme_dark, CommandMenu::theme, "theme_dark", TEXT("&Dark"), TEXT("Light text on dark ground"), "", "", true},
+    {CommandId::reset_layout, CommandMenu::view, "reset_layout", TEXT("&Reset layout"), TEXT("Put all panels back where they were at first"), "", "", false, true},
+    {CommandId::shortcuts, CommandMenu::help, "shortcuts", TEXT("&Keyboard and mouse"), TEXT("List all shortcuts"), "help", "F1"},
+    {CommandId::about, CommandMenu::help, "about", TEXT("&About Curvewright"), TEXT("What this program is"), "", ""},
+};
+// clang-format on
+
+#undef TEXT
+
+QString translated(const char* text) { return QCoreApplication::translate("Command", text); }
+
+QList<QKeySequence> shortcuts_of(const Command& command) {
+    QList<QKeySequence> keys;
+    for (const QString& key : QString::fromLatin1(command.shortcuts).split(QStringLiteral("; "), Qt::SkipEmptyParts))
+        keys << QKeySequence(key, QKeySequence::PortableText);
+    return keys;
+}
+
+}  // namespace
+
+std::span<const Command> commands() { return command_list; }
+
+QString plain_text(const Command& command) {
+    return translated(command.text).remove(QLatin1Char('&')).remove(QChar(0x2026));
+}
+
+QString help_text(const Command& command) { return translated(command.help); }
+
+CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(parent) {
+    for (const Command& command : commands()) {
+        auto* action = new QAction(translated(command.text), parent);
+        action->setObjectName(QLatin1String(command.name));
+        action->setCheckable(command.is_checkable);
+        action->setIconText(plain_text(command));
+        action->setStatusTip(help_text(command));
+        const QList<QKeySequence> keys = shortcuts_of(command);
+        action->setShortcuts(keys);
+        QString tip = help_text(command);
+        if (!keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(keys.front().toString(QKeySequence::NativeText));
+        action->setToolTip(tip);
+        actions_[command.id] = action;
+    }
+    actions_.at(CommandId::quit)->setMenuRole(QAction::QuitRole);
+    actions_.at(CommandId::about)->setMenuRole(QAction::AboutRole);
+    refresh_icons(theme);
+    connect(&theme, &Theme::changed, this, [this, &theme] { refresh_icons(theme); });
+}
+
+void CommandActions::refresh_icons(const Theme& theme) {
+    for (const Command& command : commands())
+        if (*command.icon) actions_.at(command.id)->setIcon(theme.icon(QLatin1String(command.icon)));
+}
+
+}  // namespace curvewright

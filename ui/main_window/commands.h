@@ -1,0 +1,64 @@
+#pragma once
+
+#include <map>
+#include <span>
+
+#include <QObject>
+
+#include "ui/panels/theme.h"
+
+class QAction;
+
+namespace curvewright {
+
+enum class CommandId {
+    open, load_deformation, save, save_as, export_mesh, save_picture, close_mesh, quit,
+    undo, redo,
+    deform, warp, untangle, flip, stop,
+    fit, look_front, look_back, look_left, look_right, look_top, look_bottom, look_isometric,
+    edges, nodes, legend, clip, theme_system, theme_light, theme_dark, reset_layout,
+    shortcuts, about,
+};
+
+/// Where a command stands in the menu bar.
+enum class CommandMenu { file, edit, mesh, view, look, theme, help };
+
+/// One command of the window. Menus, tool bar, tool tips, the page of shortcuts and the tests all read commands().
+struct Command {
+    CommandId id;
+    CommandMenu menu;
+    const char* name;       ///< object name of its QAction
+    const char* text;       ///< as in the menu, with its mnemonic
+    const char* help;       ///< what it does, one phrase
+    const char* icon;       ///< in resources/icons; "" = none
+    const char* shortcuts;  ///< separated by "; ", the first one is shown; "" = none
+    bool is_checkable = false;
+    bool starts_section = false;  ///< a line above it in the menu
+    /// Position in the tool bar: group and, within it, the order of this list; 0 = not there.
+    int tool_group = 0;
+    /// Its tool button shows the text beside the icon.
+    bool has_tool_text = false;
+};
+
+std::span<const Command> commands();
+
+/// The text of a command for people: translated, without mnemonic and dots.
+QString plain_text(const Command& command);
+QString help_text(const Command& command);
+
+/// One QAction per command, child of the given object.
+class CommandActions : public QObject {
+    Q_OBJECT
+
+  public:
+    CommandActions(const Theme& theme, QObject* parent);
+
+    QAction* operator[](CommandId id) const { return actions_.at(id); }
+
+  private:
+    void refresh_icons(const Theme& theme);
+
+    std::map<CommandId, QAction*> actions_;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+
+#include <QString>
+
+class QWidget;
+
+namespace curvewright {
+
+enum class UnsavedAnswer { save, discard, cancel };
+
+/// The questions that the window asks its user, replaceable so that a test can answer them.
+struct Dialogs {
+    /// Path of an existing file; "" = the user gave up.
+    std::function<QString(QWidget* parent, const QString& title, const QString& folder, const QString& filters)>
+        open_file;
+    /// Path to write to; "" = the user gave up. filters is separated by ";;", selected gets the one that was chosen.
+    std::function<QString(QWidget* parent, const QString& title, const QString& suggestion, const QString& filters,
+                          QString& selected)>
+        save_file;
+    std::function<UnsavedAnswer(QWidget* parent, const QString& file_name)> ask_unsaved;
+    /// Tells and returns at once; the message stays until it is closed.
+    std::function<void(QWidget* parent, const QString& title, const QString& message)> show_error;
+
+    /// Qt's own.
+    static Dialogs standard();
+};
+
+/// The page of Help > Keyboard and mouse.
+void show_shortcuts(QWidget* parent);
+void show_about(QWidget* parent);
+
+}  // namespace curvewright

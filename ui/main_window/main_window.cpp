@@ -1,0 +1,300 @@
+#include "ui/main_window/main_window.h"
+
+#include <QAction>
+#include <QDockWidget>
+#include <QEvent>
+#include <QLabel>
+#include <QSettings>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTabWidget>
+
+#include "ui/document/mesh_text.h"
+#include "ui/document/number_format.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/banner.h"
+#include "ui/panels/clip_bar.h"
+#include "ui/panels/mesh_panel.h"
+#include "ui/panels/operation_panels.h"
+#include "ui/panels/quality_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/panels/widgets.h"
+#include "ui/panels/worst_table.h"
+
+namespace curvewright {
+namespace {
+
+Color to_color(const QColor& color) { return {color.redF(), color.greenF(), color.blueF()}; }
+
+const struct {
+    CommandId command;
+    Theme::Choice choice;
+    const char* name;
+} theme_choices[] = {{CommandId::theme_system, Theme::Choice::follow_system, "system"},
+                     {CommandId::theme_light, Theme::Choice::light, "light"},
+                     {CommandId::theme_dark, Theme::Choice::dark, "dark"}};
+
+const struct {
+    CommandId command;
+    ViewDirection direction;
+} look_commands[] = {{CommandId::fit, ViewDirection::fit},           {CommandId::look_front, ViewDirection::plus_y},
+                     {CommandId::look_back, ViewDirection::minus_y}, {CommandId::look_left, ViewDirection::plus_x},
+                     {CommandId::look_right, ViewDirection::minus_x}, {CommandId::look_top, ViewDirection::minus_z},
+                     {CommandId::look_bottom, ViewDirection::plus_z}, {CommandId::look_isometric, ViewDirection::isometric}};
+
+}  // namespace
+
+MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
+    : theme_(theme), dialogs_(std::move(dialogs)), jobs_(document_), samples_(SampleCatalog::load()),
+      actions_(theme, this) {
+    setObjectName(QStringLiteral("main_window"));
+    setWindowIcon(Theme::program_icon());
+    build_menus();
+    build_tool_bar();
+    build_center();
+    build_docks();
+    build_status_bar();
+    restore_layout();
+    connect_commands();
+    connect_document();
+    connect_panels();
+    const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
+    for (const auto& entry : theme_choices)
+        if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
+    show_opened();
+    show_state();
+    update_commands();
+}
+
+MainWindow::~MainWindow() { jobs_.runner().cancel_and_wait(); }
+
+void MainWindow::connect_commands() {
+    const auto on = [this](CommandId id, auto function) { connect(actions_[id], &QAction::triggered, this, function); };
+    on(CommandId::open, &MainWindow::ask_open);
+    on(CommandId::load_deformation, &MainWindow::ask_load_deformation);
+    on(CommandId::save, [this] { save(false); });
+    on(CommandId::save_as, [this] { save(true); });
+    on(CommandId::export_mesh, &MainWindow::ask_export);
+    on(CommandId::save_picture, &MainWindow::ask_save_picture);
+    on(CommandId::close_mesh, [this] {
+        if (!is_busy()) when_settled([this] { document_.close(); });
+    });
+    on(CommandId::quit, [this] { close(); });
+    on(CommandId::undo, [this] { document_.history()->undo(); });
+    on(CommandId::redo, [this] { document_.history()->redo(); });
+    on(CommandId::deform, [this] { deform_panel_->run(); });
+    on(CommandId::warp, [this] { warp_panel_->run(); });
+    on(CommandId::untangle, [this] { untangle_panel_->run(); });
+    on(CommandId::flip, [this] { jobs_.flip(); });
+    on(CommandId::stop, [this] { jobs_.runner().cancel(); });
+    on(CommandId::reset_layout, &MainWindow::reset_layout);
+    on(CommandId::shortcuts, [this] { show_shortcuts(this); });
+    on(CommandId::about, [this] { show_about(this); });
+    for (const auto& entry : look_commands)
+        on(entry.command, [this, direction = entry.direction] { view_->look(direction); });
+    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip})
+        connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
+    for (const auto& entry : theme_choices)
+        connect(actions_[entry.command], &QAction::toggled, this, [this, entry](bool is_on) {
+            if (is_on && theme_.choice() != entry.choice) theme_.set_choice(entry.choice);
+        });
+    for (const auto& entry : theme_choices)
+        on(entry.command, [entry] { QSettings().setValue(QStringLiteral("theme"), QLatin1String(entry.name)); });
+    connect(&theme_, &Theme::changed, this, &MainWindow::update_options);
+}
+
+void MainWindow::connect_document() {
+    connect(&document_, &MeshDocument::opened, this, &MainWindow::show_opened);
+    connect(&document_, &MeshDocument::state_changed, this, &MainWindow::show_state);
+    connect(&document_, &MeshDocument::deformation_changed, this, &MainWindow::update_commands);
+    connect(&document_, &MeshDocument::file_path_changed, this, &MainWindow::update_title);
+    connect(&document_, &MeshDocument::dirty_changed, this, &MainWindow::update_title);
+
+    JobRunner& runner = jobs_.runner();
+    connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
+    connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
+        after_save_ = nullptr;
+        dialogs_.show_error(this, tr("%1 failed").arg(title), message);
+    });
+    connect(&runner, &JobRunner::cancelled, this, [this](const QString& title) {
+        after_save_ = nullptr;
+        statusBar()->showMessage(tr("%1 was stopped; the mesh is as it was.").arg(title), 6000);
+    });
+    connect(&runner, &JobRunner::finished, this, [this] {
+        if (after_save_ && !document_.is_dirty()) std::exchange(after_save_, nullptr)();
+    });
+    connect(&jobs_, &MeshJobs::note, this, [this](const QString& text) { statusBar()->showMessage(text, 12000); });
+}
+
+void MainWindow::connect_panels() {
+    connect(start_page_, &StartPage::open_requested, this, &MainWindow::ask_open);
+    connect(start_page_, &StartPage::file_chosen, this, [this](const QString& path) { open_file(path); });
+    connect(start_page_, &StartPage::sample_chosen, this, &MainWindow::open_sample);
+    connect(deform_panel_, &DeformPanel::load_requested, this, &MainWindow::ask_load_deformation);
+    connect(banner_, &Banner::action_triggered, this, [this] { jobs_.flip(); });
+    connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
+    connect(worst_table_, &WorstTable::element_chosen, this, [this](Index element) { highlight({element}, true); });
+    connect(quality_panel_, &QualityPanel::elements_chosen, this,
+            [this](const std::vector<Index>& elements) { highlight(elements, false); });
+    connect(mesh_panel_, &MeshPanel::elements_chosen, this,
+            [this](const std::vector<Index>& elements) { highlight(elements, false); });
+    connect(view_, &MeshView::element_clicked, this, &MainWindow::tell_element);
+}
+
+void MainWindow::show_opened() {
+    saved_format_.reset();
+    const bool has_mesh = document_.has_mesh();
+    center_->setCurrentWidget(has_mesh ? view_page_ : static_cast<QWidget*>(start_page_));
+    for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {
+        // Without a mesh the panels have nothing to say; a panel that the user has closed stays closed.
+        if (has_mesh) dock->setVisible(!dock->property("closed_by_user").toBool());
+        else dock->hide();
+    }
+    if (has_mesh && document_.state().mesh->topology().dimension() == 3)
+        hint_->setText(tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?"));
+    else if (has_mesh)
+        hint_->setText(tr("drag: move · wheel: zoom to the pointer · click: what is this element?"));
+    else
+        hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
+    statusBar()->clearMessage();
+    update_title();
+    update_options();
+}
+
+void MainWindow::show_state() {
+    const MeshState& state = document_.state();
+    view_->set_highlighted_elements({});
+    view_->show_state(state);
+    verdict_->clear();
+    banner_->hide();
+    if (state.mesh && !state.quality) {
+        verdict_->setText(tr("quality unknown"));
+        set_tone(verdict_, "warning");
+        banner_->show_warning(state.quality_note, {});
+    } else if (state.quality) {
+        const QualitySummary& summary = state.quality->summary;
+        verdict_->setText(validity_sentence(summary));
+        set_tone(verdict_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
+        if (state.quality->orientation == Orientation::negative)
+            banner_->show_warning(tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
+                                     "numbering, not of tangling."),
+                                  tr("Flip"));
+        else if (state.quality->orientation == Orientation::mixed)
+            banner_->show_warning(tr("Some elements are numbered clockwise and others counter-clockwise; those of the "
+                                     "minority count as tangled."),
+                                  {});
+    }
+    update_commands();
+}
+
+void MainWindow::update_title() {
+    setWindowModified(document_.is_dirty());
+    setWindowTitle(document_.has_mesh() ? tr("%1[*] – Curvewright").arg(document_.file_name()) : tr("Curvewright"));
+}
+
+void MainWindow::update_commands() {
+    const bool is_idle = !jobs_.runner().is_running(), has_mesh = document_.has_mesh();
+    for (const CommandId id : {CommandId::open, CommandId::load_deformation}) actions_[id]->setEnabled(is_idle);
+    actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
+    for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::close_mesh})
+        actions_[id]->setEnabled(is_idle && has_mesh);
+    for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend})
+        actions_[id]->setEnabled(has_mesh);
+    const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
+    for (const auto& entry : look_commands)
+        if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
+    actions_[CommandId::clip]->setEnabled(is_3d);
+    actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
+    actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
+    actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());
+    actions_[CommandId::warp]->setEnabled(is_idle && warp_panel_->why_not().isEmpty());
+    actions_[CommandId::untangle]->setEnabled(is_idle && untangle_panel_->why_not().isEmpty());
+    actions_[CommandId::flip]->setEnabled(is_idle && has_mesh && document_.state().quality);
+    actions_[CommandId::stop]->setEnabled(!is_idle);
+    mesh_panel_->set_history_enabled(is_idle);
+
+    const auto step_tip = [](QAction* action, const QString& verb, const QString& step) {
+        const QString keys = action->shortcut().toString(QKeySequence::NativeText);
+        action->setToolTip(step.isEmpty() ? QStringLiteral("%1 (%2)").arg(verb, keys)
+                                          : QStringLiteral("%1: %2 (%3)").arg(verb, step, keys));
+    };
+    step_tip(actions_[CommandId::undo], tr("Undo"), document_.history()->undoText());
+    step_tip(actions_[CommandId::redo], tr("Redo"), document_.history()->redoText());
+}
+
+void MainWindow::update_options() {
+    const bool is_3d = document_.has_mesh() && document_.state().mesh->topology().dimension() == 3;
+    const bool is_clipped = is_3d && actions_[CommandId::clip]->isChecked();
+    SceneOptions options = view_->options();
+    options.show_edges = actions_[CommandId::edges]->isChecked();
+    options.show_nodes = actions_[CommandId::nodes]->isChecked();
+    options.show_legend = actions_[CommandId::legend]->isChecked();
+    options.background = to_color(theme_.color(QStringLiteral("view")));
+    options.foreground = to_color(theme_.color(QStringLiteral("text")));
+    options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));
+    options.clip.reset();
+    if (is_clipped) {
+        const ClipSetting setting = clip_bar_->setting();
+        ClipPlane plane;
+        plane.normal = {0.0, 0.0, 0.0};
+        plane.normal[static_cast<std::size_t>(setting.axis)] = setting.is_flipped ? -1.0 : 1.0;
+        plane.position = setting.is_flipped ? 1.0 - setting.position : setting.position;
+        options.clip = plane;
+    }
+    view_->set_options(options);
+    clip_bar_->setVisible(is_clipped);
+    place_clip_bar();
+}
+
+void MainWindow::highlight(const std::vector<Index>& elements, bool fly) {
+    view_->set_highlighted_elements(elements);
+    if (elements.size() == 1) {
+        if (fly) view_->fly_to(elements.front());
+        tell_element(elements.front());
+        return;
+    }
+    statusBar()->showMessage(elements.empty() ? tr("No elements there.")
+                                              : tr("%1 elements are outlined; click into the empty view to clear.")
+                                                    .arg(format_count(static_cast<long long>(elements.size()))),
+                             8000);
+}
+
+void MainWindow::tell_element(std::optional<Index> element) {
+    const MeshState& state = document_.state();
+    if (!element || !state.mesh) {
+        view_->set_highlighted_elements({});
+        statusBar()->clearMessage();
+        return;
+    }
+    view_->set_highlighted_elements({*element});
+    const MeshTopology& topology = state.mesh->topology();
+    const Eigen::RowVector3d center = state.mesh->element_center(*element);
+    QString text = tr("Element %1, %2, centre (%3, %4, %5)")
+                       .arg(topology.element_tag(*element).value)
+                       .arg(QString::fromStdString(name(topology.element_type(*element))), format_number(center.x()),
+                            format_number(center.y()), format_number(center.z()));
+    if (state.quality) {
+        const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(*element)];
+        const QString validity = quality.validity == Validity::valid     ? tr("proved valid")
+                                 : quality.validity == Validity::invalid ? tr("tangled")
+                                                                         : tr("undecided");
+        text += tr(": scaled Jacobian %1, %2").arg(format_number(quality.scaled_jacobian), validity);
+    }
+    statusBar()->showMessage(text);
+}
+
+void MainWindow::show_tab(const QString& name) {
+    tabs_->setCurrentIndex(name == QLatin1String("untangle") ? 2 : name == QLatin1String("warp") ? 1 : 0);
+}
+
+bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == view_ && event->type() == QEvent::Resize) place_clip_bar();
+    return QMainWindow::eventFilter(watched, event);
+}
+
+void MainWindow::place_clip_bar() {
+    clip_bar_->adjustSize();
+    clip_bar_->move(12, 12);
+}
+
+}  // namespace curvewright

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+
+#include <QMainWindow>
+
+#include "ui/document/mesh_document.h"
+#include "ui/document/recent_files.h"
+#include "ui/document/sample_catalog.h"
+#include "ui/jobs/mesh_jobs.h"
+#include "ui/main_window/commands.h"
+#include "ui/main_window/dialogs.h"
+#include "ui/panels/theme.h"
+#include "ui/scene/mesh_scene.h"
+
+class QDockWidget;
+class QLabel;
+class QMenu;
+class QStackedWidget;
+class QTabWidget;
+
+namespace curvewright {
+
+class Banner;
+class ClipBar;
+class DeformPanel;
+class MeshPanel;
+class MeshView;
+class QualityPanel;
+class StartPage;
+class UntanglePanel;
+class WarpPanel;
+class WorstTable;
+
+/// The window: puts document, jobs, panels and view together, and nothing else.
+class MainWindow : public QMainWindow {
+    Q_OBJECT
+
+  public:
+    explicit MainWindow(Theme& theme, Dialogs dialogs = Dialogs::standard());
+    ~MainWindow() override;
+
+    MeshDocument& document() { return document_; }
+    MeshJobs& jobs() { return jobs_; }
+    MeshView& view() { return *view_; }
+    QAction* action(CommandId id) const { return actions_[id]; }
+
+    /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is loaded as
+    /// a deformation of the open mesh. apply: also apply the deformation to the boundary.
+    void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
+    void open_sample(const Sample& sample);
+    const SampleCatalog& samples() const { return samples_; }
+    /// Brings up a tab of the right panel: "deform", "warp" or "untangle".
+    void show_tab(const QString& name);
+    /// Writes what the view shows, at `scale` times its size; tells the user if that fails.
+    bool save_picture(const QString& path, int scale);
+
+  protected:
+    void closeEvent(QCloseEvent* event) override;
+    void dragEnterEvent(QDragEnterEvent* event) override;
+    void dragLeaveEvent(QDragLeaveEvent* event) override;
+    void dropEvent(QDropEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
+  private:
+    // main_window_layout.cpp
+    void build_menus();
+    void build_tool_bar();
+    void build_center();
+    void build_docks();
+    void build_status_bar();
+    QDockWidget* add_dock(const QString& name, const QString& title, Qt::DockWidgetArea area, QWidget* content);
+    void fill_recent_menu();
+    void fill_samples_menu();
+    void restore_layout();
+    void save_layout() const;
+    void reset_layout();
+
+    // main_window.cpp
+    void connect_commands();
+    void connect_document();
+    void connect_panels();
+    void show_opened();
+    void show_state();
+    void update_title();
+    void update_commands();
+    void update_options();
+    void choose_theme(Theme::Choice choice);
+    void highlight(const std::vector<Index>& elements, bool fly);
+    void tell_element(std::optional<Index> element);
+    void place_clip_bar();
+
+    // main_window_files.cpp
+    void ask_open();
+    void ask_load_deformation();
+    void load_deformation(const QString& path);
+    void save(bool ask_for_name);
+    void ask_export();
+    void ask_save_picture();
+    bool is_busy();
+    /// Runs next now, or after the user has saved the changes or given them up; not at all if the user cancels.
+    void when_settled(std::function<void()> next);
+    QString suggested_path(const QString& suffix) const;
+
+    Theme& theme_;
+    Dialogs dialogs_;
+    MeshDocument document_;
+    MeshJobs jobs_;
+    RecentFiles recent_;
+    SampleCatalog samples_;
+    CommandActions actions_;
+
+    QStackedWidget* center_ = nullptr;
+    StartPage* start_page_ = nullptr;
+    QWidget* view_page_ = nullptr;
+    Banner* banner_ = nullptr;
+    MeshView* view_ = nullptr;
+    ClipBar* clip_bar_ = nullptr;
+    MeshPanel* mesh_panel_ = nullptr;
+    QTabWidget* tabs_ = nullptr;
+    DeformPanel* deform_panel_ = nullptr;
+    WarpPanel* warp_panel_ = nullptr;
+    UntanglePanel* untangle_panel_ = nullptr;
+    WorstTable* worst_table_ = nullptr;
+    QualityPanel* quality_panel_ = nullptr;
+    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
+    QLabel *hint_ = nullptr, *verdict_ = nullptr;
+    QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr;
+
+    std::function<void()> after_save_;
+    std::optional<MeshFormat> saved_format_;  ///< of the file that Save may overwrite; none = Save asks for a name
+    std::optional<MeshFormat> pending_format_;
+    QByteArray first_layout_;
+    bool is_closing_ = false;
+};
+
+}  // namespace curvewright

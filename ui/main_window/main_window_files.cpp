@@ -1,0 +1,257 @@
+#include <QCloseEvent>
+#include <QDir>
+#include <QDragEnterEvent>
+#include <QFileInfo>
+#include <QImageWriter>
+#include <QMimeData>
+#include <QSaveFile>
+#include <QSettings>
+#include <QStandardPaths>
+#include <QStatusBar>
+
+#include "ui/main_window/main_window.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/operation_panels.h"
+#include "ui/panels/start_page.h"
+
+namespace curvewright {
+namespace {
+
+struct WriteFilter {
+    QString text;
+    QString suffix;
+    MeshFormat format;
+};
+
+QList<WriteFilter> write_filters() {
+    return {{MainWindow::tr("Gmsh MSH 4.1 (*.msh)"), QStringLiteral("msh"), MeshFormat::msh4},
+            {MainWindow::tr("Gmsh MSH 2.2 (*.msh)"), QStringLiteral("msh"), MeshFormat::msh2},
+            {MainWindow::tr("VTU for ParaView, with quality (*.vtu)"), QStringLiteral("vtu"), MeshFormat::vtu},
+            {MainWindow::tr("VTK legacy, with quality (*.vtk)"), QStringLiteral("vtk"), MeshFormat::vtk}};
+}
+
+QString filter_list(const QList<WriteFilter>& filters) {
+    QStringList texts;
+    for (const WriteFilter& filter : filters) texts << filter.text;
+    return texts.join(QStringLiteral(";;"));
+}
+
+/// The format that path and chosen filter mean together; a path without a known suffix gets the filter's.
+MeshFormat settle_format(QString& path, const QString& selected_filter) {
+    const auto by_suffix = format_of_suffix(path.toStdString());
+    for (const WriteFilter& filter : write_filters()) {
+        if (filter.text != selected_filter) continue;
+        if (!by_suffix) path += QLatin1Char('.') + filter.suffix;
+        if (!by_suffix || filter.suffix == QFileInfo(path).suffix().toLower()) return filter.format;
+    }
+    return by_suffix.value_or(MeshFormat::msh4);
+}
+
+bool is_deformation_file(const QString& path) {
+    const QString suffix = QFileInfo(path).suffix().toLower();
+    return suffix == QLatin1String("json") || suffix == QLatin1String("csv");
+}
+
+QString last_folder() {
+    return QSettings().value(QStringLiteral("last_folder"), QDir::homePath()).toString();
+}
+
+void remember_folder(const QString& path) {
+    QSettings().setValue(QStringLiteral("last_folder"), QFileInfo(path).absolutePath());
+}
+
+QString first_file(const QMimeData* data) {
+    for (const QUrl& url : data->urls())
+        if (url.isLocalFile()) return url.toLocalFile();
+    return {};
+}
+
+}  // namespace
+
+bool MainWindow::is_busy() {
+    if (!jobs_.runner().is_running()) return false;
+    statusBar()->showMessage(tr("%1 is still running: stop it first (Esc).").arg(jobs_.runner().title()), 6000);
+    return true;
+}
+
+void MainWindow::when_settled(std::function<void()> next) {
+    if (!document_.is_dirty()) {
+        next();
+        return;
+    }
+    switch (dialogs_.ask_unsaved(this, document_.file_name())) {
+        case UnsavedAnswer::cancel: break;
+        case UnsavedAnswer::discard: next(); break;
+        case UnsavedAnswer::save:
+            after_save_ = std::move(next);
+            save(false);
+            break;
+    }
+}
+
+void MainWindow::open_file(const QString& path, const QString& deformation_path, bool apply) {
+    if (is_busy()) return;
+    if (is_deformation_file(path)) {
+        load_deformation(path);
+        return;
+    }
+    when_settled([this, path, deformation_path, apply] {
+        OpenRequest request;
+        request.mesh_path = path;
+        request.deformation_path = deformation_path;
+        request.apply_deformation = apply;
+        request.then = [this, path] {
+            recent_.add(path);
+            remember_folder(path);
+        };
+        jobs_.open(request);
+    });
+}
+
+void MainWindow::open_sample(const Sample& sample) {
+    if (is_busy()) return;
+    when_settled([this, sample] {
+        const bool is_untangle = sample.task == Sample::Task::untangle;
+        OpenRequest request;
+        request.mesh_path = sample.mesh_path;
+        request.deformation_path = sample.deformation_path;
+        request.apply_deformation = is_untangle && !sample.is_deformed;
+        request.then = [this, sample, is_untangle] {
+            if (sample.beta) untangle_panel_->set_beta(*sample.beta);
+            show_tab(is_untangle ? QStringLiteral("untangle") : QStringLiteral("warp"));
+        };
+        jobs_.open(request);
+    });
+}
+
+void MainWindow::load_deformation(const QString& path) {
+    if (is_busy()) return;
+    if (!document_.has_mesh()) {
+        dialogs_.show_error(this, tr("No mesh is open"),
+                            tr("%1 is a deformation: open the mesh that it deforms first.").arg(QFileInfo(path).fileName()));
+        return;
+    }
+    if (jobs_.load_deformation(path)) remember_folder(path);
+}
+
+void MainWindow::ask_open() {
+    if (is_busy()) return;
+    const QString path = dialogs_.open_file(this, tr("Open a mesh"), last_folder(),
+                                            tr("Meshes (*.msh *.msh.gz *.vtu *.vtk);;All files (*)"));
+    if (!path.isEmpty()) open_file(path);
+}
+
+void MainWindow::ask_load_deformation() {
+    if (is_busy()) return;
+    const QString path = dialogs_.open_file(
+        this, tr("Load a deformation"), last_folder(),
+        tr("Deformations (*.json *.csv *.msh *.msh.gz *.vtu *.vtk);;All files (*)"));
+    if (!path.isEmpty()) load_deformation(path);
+}
+
+QString MainWindow::suggested_path(const QString& suffix) const {
+    QString stem = document_.file_name();
+    if (stem.endsWith(QLatin1String(".gz"))) stem.chop(3);
+    stem = QFileInfo(stem).completeBaseName();
+    return QDir(last_folder()).filePath(stem + QStringLiteral("-curved.") + suffix);
+}
+
+void MainWindow::save(bool ask_for_name) {
+    if (!document_.has_mesh() || is_busy()) return;
+    QString path = document_.file_path();
+    pending_format_ = saved_format_;
+    // The file that was opened is never overwritten without asking.
+    if (ask_for_name || !saved_format_) {
+        QString selected;
+        path = dialogs_.save_file(this, tr("Save the mesh"), suggested_path(QStringLiteral("msh")),
+                                  filter_list(write_filters()), selected);
+        if (path.isEmpty()) {
+            after_save_ = nullptr;
+            return;
+        }
+        pending_format_ = settle_format(path, selected);
+        remember_folder(path);
+    }
+    jobs_.write(path, pending_format_, true);
+}
+
+void MainWindow::ask_export() {
+    if (!document_.has_mesh() || is_busy()) return;
+    QList<WriteFilter> filters = write_filters();
+    filters.move(2, 0);
+    QString selected;
+    QString path = dialogs_.save_file(this, tr("Export a copy"), suggested_path(QStringLiteral("vtu")),
+                                      filter_list(filters), selected);
+    if (path.isEmpty()) return;
+    const MeshFormat format = settle_format(path, selected);
+    remember_folder(path);
+    jobs_.write(path, format, false);
+}
+
+void MainWindow::ask_save_picture() {
+    if (!document_.has_mesh()) return;
+    const QString once = tr("PNG as large as the view (*.png)"), twice = tr("PNG twice as large (*.png)");
+    QString selected;
+    QString path = dialogs_.save_file(this, tr("Save a picture"), suggested_path(QStringLiteral("png")),
+                                      once + QStringLiteral(";;") + twice, selected);
+    if (path.isEmpty()) return;
+    if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
+    remember_folder(path);
+    save_picture(path, selected == twice ? 2 : 1);
+}
+
+bool MainWindow::save_picture(const QString& path, int scale) {
+    const QImage image = view_->picture(scale);
+    QSaveFile file(path);
+    const QString title = tr("The picture was not saved");
+    if (image.isNull()) {
+        dialogs_.show_error(this, title, tr("The view could not be drawn at %1 times its size.").arg(scale));
+        return false;
+    }
+    if (!file.open(QIODevice::WriteOnly)) {
+        dialogs_.show_error(this, title, tr("%1: cannot be written: %2.").arg(path, file.errorString()));
+        return false;
+    }
+    QImageWriter writer(&file, "png");
+    if (!writer.write(image) || !file.commit()) {
+        dialogs_.show_error(this, title, tr("%1: cannot be written: %2.").arg(path, writer.errorString()));
+        return false;
+    }
+    statusBar()->showMessage(tr("Wrote %1 (%2 × %3 pixels).").arg(path).arg(image.width()).arg(image.height()), 8000);
+    return true;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+    if (document_.is_dirty() && !is_closing_) {
+        event->ignore();
+        // Saving is a job: the window closes again when it has ended.
+        if (jobs_.runner().is_running()) jobs_.runner().cancel_and_wait();
+        when_settled([this] {
+            is_closing_ = true;
+            QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
+        });
+        return;
+    }
+    jobs_.runner().cancel_and_wait();
+    save_layout();
+    event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+    if (first_file(event->mimeData()).isEmpty()) return;
+    event->acceptProposedAction();
+    start_page_->set_drop_active(true);
+}
+
+void MainWindow::dragLeaveEvent(QDragLeaveEvent*) { start_page_->set_drop_active(false); }
+
+void MainWindow::dropEvent(QDropEvent* event) {
+    start_page_->set_drop_active(false);
+    const QString path = first_file(event->mimeData());
+    if (path.isEmpty()) return;
+    event->acceptProposedAction();
+    // After the drop has ended: a question asked now would hold up the program that the file comes from.
+    QMetaObject::invokeMethod(this, [this, path] { open_file(path); }, Qt::QueuedConnection);
+}
+
+}  // namespace curvewright

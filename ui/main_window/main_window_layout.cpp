@@ -1,0 +1,231 @@
+#include <QAction>
+#include <QActionGroup>
+#include <QDockWidget>
+#include <QFileInfo>
+#include <QLabel>
+#include <QMenu>
+#include <QMenuBar>
+#include <QScrollArea>
+#include <QSettings>
+#include <QSplitter>
+#include <QStackedWidget>
+#include <QStatusBar>
+#include <QTabBar>
+#include <QTabWidget>
+#include <QToolBar>
+#include <QToolButton>
+#include <QVBoxLayout>
+
+#include "ui/main_window/main_window.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/banner.h"
+#include "ui/panels/clip_bar.h"
+#include "ui/panels/job_bar.h"
+#include "ui/panels/mesh_panel.h"
+#include "ui/panels/operation_panels.h"
+#include "ui/panels/quality_panel.h"
+#include "ui/panels/start_page.h"
+#include "ui/panels/widgets.h"
+#include "ui/panels/worst_table.h"
+
+namespace curvewright {
+namespace {
+
+constexpr int layout_version = 1;
+
+/// A panel that scrolls when it is higher than its dock.
+QScrollArea* scrolling(QWidget* panel) {
+    auto* area = new QScrollArea;
+    area->setWidgetResizable(true);
+    area->setFrameShape(QFrame::NoFrame);
+    area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
+    area->setWidget(panel);
+    return area;
+}
+
+}  // namespace
+
+void MainWindow::build_menus() {
+    std::map<CommandMenu, QMenu*> menus;
+    menus[CommandMenu::file] = menuBar()->addMenu(tr("&File"));
+    menus[CommandMenu::edit] = menuBar()->addMenu(tr("&Edit"));
+    menus[CommandMenu::view] = menuBar()->addMenu(tr("&View"));
+    menus[CommandMenu::mesh] = menuBar()->addMenu(tr("&Mesh"));
+    menus[CommandMenu::help] = menuBar()->addMenu(tr("&Help"));
+    menus[CommandMenu::look] = new QMenu(tr("Look &from"), this);
+    menus[CommandMenu::theme] = new QMenu(tr("&Theme"), this);
+    recent_menu_ = new QMenu(tr("Open &recent"), this);
+    samples_menu_ = new QMenu(tr("Sa&mples"), this);
+    panels_menu_ = new QMenu(tr("&Panels"), this);
+
+    for (const Command& command : commands()) {
+        QMenu* menu = menus.at(command.menu);
+        if (command.starts_section) menu->addSeparator();
+        if (command.id == CommandId::reset_layout) {
+            menu->addMenu(menus.at(CommandMenu::theme));
+            menu->addMenu(panels_menu_);
+        }
+        menu->addAction(actions_[command.id]);
+        if (command.id == CommandId::open) {
+            menu->addMenu(recent_menu_);
+            menu->addMenu(samples_menu_);
+        }
+        if (command.id == CommandId::fit) menu->addMenu(menus.at(CommandMenu::look));
+    }
+    auto* themes = new QActionGroup(this);
+    for (const CommandId id : {CommandId::theme_system, CommandId::theme_light, CommandId::theme_dark})
+        themes->addAction(actions_[id]);
+    connect(recent_menu_, &QMenu::aboutToShow, this, &MainWindow::fill_recent_menu);
+    fill_samples_menu();
+}
+
+void MainWindow::fill_recent_menu() {
+    recent_menu_->clear();
+    for (const QString& path : recent_.paths())
+        recent_menu_->addAction(QFileInfo(path).fileName(), this, [this, path] { open_file(path); })->setToolTip(path);
+    recent_menu_->setToolTipsVisible(true);
+    if (recent_menu_->isEmpty()) {
+        recent_menu_->addAction(tr("No files yet"))->setEnabled(false);
+        return;
+    }
+    recent_menu_->addSeparator();
+    recent_menu_->addAction(tr("Clear the list"), &recent_, &RecentFiles::clear);
+}
+
+void MainWindow::fill_samples_menu() {
+    for (const Sample& sample : samples_.samples())
+        samples_menu_->addAction(sample.title, this, [this, sample] { open_sample(sample); })
+            ->setStatusTip(sample.description);
+    if (samples_menu_->isEmpty()) samples_menu_->addAction(samples_.error())->setEnabled(false);
+}
+
+void MainWindow::build_tool_bar() {
+    QToolBar* bar = addToolBar(tr("Tools"));
+    bar->setObjectName(QStringLiteral("tool_bar"));
+    bar->setMovable(false);
+    bar->setIconSize({20, 20});
+    bar->setContextMenuPolicy(Qt::PreventContextMenu);
+    for (int group = 1; group <= 4; ++group) {
+        if (group > 1) bar->addSeparator();
+        for (const Command& command : commands()) {
+            if (command.tool_group != group) continue;
+            bar->addAction(actions_[command.id]);
+            auto* button = static_cast<QToolButton*>(bar->widgetForAction(actions_[command.id]));
+            button->setObjectName(QStringLiteral("tool_") + QLatin1String(command.name));
+            if (command.has_tool_text) button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+        }
+    }
+}
+
+void MainWindow::build_center() {
+    start_page_ = new StartPage(samples_, recent_, theme_);
+    view_ = new MeshView;
+    banner_ = new Banner(theme_);
+    view_page_ = new QWidget;
+    auto* layout = new QVBoxLayout(view_page_);
+    layout->setContentsMargins(0, 0, 0, 0);
+    layout->setSpacing(0);
+    layout->addWidget(banner_);
+    layout->addWidget(view_, 1);
+    clip_bar_ = new ClipBar(theme_, view_);
+    clip_bar_->hide();
+    view_->installEventFilter(this);
+
+    center_ = new QStackedWidget;
+    center_->addWidget(start_page_);
+    center_->addWidget(view_page_);
+    setCentralWidget(center_);
+    setAcceptDrops(true);
+}
+
+QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt::DockWidgetArea area,
+                                  QWidget* content) {
+    auto* dock = new QDockWidget(title, this);
+    dock->setObjectName(name);
+    dock->setWidget(content);
+    dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
+    addDockWidget(area, dock);
+    panels_menu_->addAction(dock->toggleViewAction());
+    return dock;
+}
+
+void MainWindow::build_docks() {
+    mesh_panel_ = new MeshPanel(document_);
+    deform_panel_ = new DeformPanel(jobs_);
+    warp_panel_ = new WarpPanel(jobs_);
+    untangle_panel_ = new UntanglePanel(jobs_);
+    worst_table_ = new WorstTable(document_, theme_);
+    quality_panel_ = new QualityPanel(document_, theme_);
+
+    tabs_ = new QTabWidget;
+    tabs_->setObjectName(QStringLiteral("operations_tabs"));
+    tabs_->setDocumentMode(true);
+    tabs_->tabBar()->setExpanding(true);
+    tabs_->addTab(scrolling(deform_panel_), tr("Deform"));
+    tabs_->addTab(scrolling(warp_panel_), tr("Warp"));
+    tabs_->addTab(scrolling(untangle_panel_), tr("Untangle"));
+    auto* right = new QSplitter(Qt::Vertical);
+    right->setObjectName(QStringLiteral("right_splitter"));
+    right->addWidget(tabs_);
+    right->addWidget(worst_table_);
+    right->setStretchFactor(0, 0);
+    right->setStretchFactor(1, 1);
+    right->setSizes({272, 240});
+    right->setChildrenCollapsible(false);
+
+    left_dock_ = add_dock(QStringLiteral("mesh_dock"), tr("Mesh"), Qt::LeftDockWidgetArea, mesh_panel_);
+    right_dock_ = add_dock(QStringLiteral("operations_dock"), tr("Operations"), Qt::RightDockWidgetArea, right);
+    bottom_dock_ = add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
+    // The tabs and the headings say what these two are.
+    right_dock_->setTitleBarWidget(new QWidget);
+    bottom_dock_->setTitleBarWidget(new QWidget);
+    left_dock_->setTitleBarWidget(new QWidget);
+    resizeDocks({left_dock_, right_dock_}, {208, 288}, Qt::Horizontal);
+    resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
+}
+
+void MainWindow::build_status_bar() {
+    hint_ = make_label(QString(), "");
+    hint_->setObjectName(QStringLiteral("hint"));
+    hint_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    hint_->setContentsMargins(8, 0, 0, 0);
+    verdict_ = make_label(QString(), "");
+    verdict_->setObjectName(QStringLiteral("verdict"));
+    verdict_->setContentsMargins(8, 0, 8, 0);
+    statusBar()->addWidget(hint_, 1);
+    statusBar()->addPermanentWidget(new JobBar(jobs_.runner()));
+    statusBar()->addPermanentWidget(verdict_);
+    statusBar()->setSizeGripEnabled(false);
+}
+
+void MainWindow::restore_layout() {
+    first_layout_ = saveState(layout_version);
+    const QSettings settings;
+    resize(1280, 800);
+    restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
+    restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), layout_version);
+    const struct {
+        CommandId id;
+        bool is_on;
+    } defaults[] = {{CommandId::edges, true}, {CommandId::nodes, false}, {CommandId::legend, true}};
+    for (const auto& entry : defaults)
+        actions_[entry.id]->setChecked(
+            settings.value(QStringLiteral("view/") + actions_[entry.id]->objectName(), entry.is_on).toBool());
+}
+
+void MainWindow::save_layout() const {
+    QSettings settings;
+    settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
+    settings.setValue(QStringLiteral("window/state"), saveState(layout_version));
+    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend})
+        settings.setValue(QStringLiteral("view/") + actions_[id]->objectName(), actions_[id]->isChecked());
+}
+
+void MainWindow::reset_layout() {
+    restoreState(first_layout_, layout_version);
+    for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) dock->setVisible(document_.has_mesh());
+    resizeDocks({left_dock_, right_dock_}, {208, 288}, Qt::Horizontal);
+    resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
+}
+
+}  // namespace curvewright

@@ -1,0 +1,348 @@
+#include "ui/main_window/mesh_view.h"
+
+#include <array>
+
+#include <QMouseEvent>
+#include <QOffscreenSurface>
+#include <QOpenGLContext>
+#include <QOpenGLFunctions_3_2_Core>
+#include <QOpenGLVersionFunctionsFactory>
+#include <QTimer>
+#include <QVariantAnimation>
+#include <QWheelEvent>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkNew.h>
+#include <vtkOpenGLFramebufferObject.h>
+#include <vtkOpenGLState.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace curvewright {
+namespace {
+
+/// What a fly-to changes of a camera.
+struct CameraPose {
+    std::array<double, 3> position{}, focus{}, up{};
+    double scale = 1.0;
+
+    static CameraPose of(vtkCamera* camera) {
+        CameraPose pose;
+        camera->GetPosition(pose.position.data());
+        camera->GetFocalPoint(pose.focus.data());
+        camera->GetViewUp(pose.up.data());
+        pose.scale = camera->GetParallelScale();
+        return pose;
+    }
+    void apply(vtkCamera* camera) const {
+        camera->SetPosition(position.data());
+        camera->SetFocalPoint(focus.data());
+        camera->SetViewUp(up.data());
+        camera->SetParallelScale(scale);
+    }
+};
+
+CameraPose between(const CameraPose& a, const CameraPose& b, double t) {
+    CameraPose pose;
+    for (std::size_t i = 0; i < 3; ++i) {
+        pose.position[i] = a.position[i] + t * (b.position[i] - a.position[i]);
+        pose.focus[i] = a.focus[i] + t * (b.focus[i] - a.focus[i]);
+        pose.up[i] = a.up[i] + t * (b.up[i] - a.up[i]);
+    }
+    pose.scale = a.scale + t * (b.scale - a.scale);
+    return pose;
+}
+
+constexpr int click_distance = 4;  ///< pixels that a click may wander
+
+}  // namespace
+
+struct MeshView::Parts {
+    MeshScene scene;
+    vtkNew<vtkGenericOpenGLRenderWindow> window;
+    vtkNew<vtkGenericRenderWindowInteractor> interactor;
+    vtkNew<vtkCallbackCommand> events;
+    QOpenGLFunctions_3_2_Core* gl = nullptr;
+    MeshState state;  ///< keeps alive what the scene shows
+    SceneOptions options;
+    QVariantAnimation flight;
+    std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id
+    QPointF press_position;
+    bool is_stale = true;
+    bool may_be_click = false;
+};
+
+MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
+    setObjectName(QStringLiteral("mesh_view"));
+    setMouseTracking(true);
+    setFocusPolicy(Qt::ClickFocus);
+    setMinimumSize(240, 160);
+    Parts& parts = *parts_;
+
+    // VTK asks for the context through events; unanswered ones make Render() do nothing.
+    parts.events->SetClientData(this);
+    parts.events->SetCallback([](vtkObject*, unsigned long event, void* client, void* call_data) {
+        auto* view = static_cast<MeshView*>(client);
+        Parts& own = *view->parts_;
+        switch (event) {
+            case vtkCommand::WindowMakeCurrentEvent:
+                // QOpenGLWidget::makeCurrent() would bind the widget's framebuffer behind VTK's back.
+                if (QOpenGLContext* context = view->context()) context->makeCurrent(context->surface());
+                break;
+            case vtkCommand::WindowIsCurrentEvent:
+                *static_cast<bool*>(call_data) =
+                    view->context() != nullptr && QOpenGLContext::currentContext() == view->context();
+                break;
+            case vtkCommand::WindowSupportsOpenGLEvent: *static_cast<int*>(call_data) = 1; break;
+            case vtkCommand::WindowIsDirectEvent: *static_cast<int*>(call_data) = 1; break;
+            case vtkCommand::RenderEvent: view->request_frame(); break;
+            case vtkCommand::CreateTimerEvent: {
+                const int id = own.interactor->GetTimerEventId();
+                auto* timer = new QTimer(view);
+                timer->setSingleShot(own.interactor->GetTimerEventType() == vtkRenderWindowInteractor::OneShotTimer);
+                QObject::connect(timer, &QTimer::timeout, view, [&own, id] {
+                    int timer_id = id;
+                    own.interactor->InvokeEvent(vtkCommand::TimerEvent, &timer_id);
+                });
+                own.interactor->SetTimerEventPlatformId(id);
+                own.timers.emplace_back(id, timer);
+                timer->start(own.interactor->GetTimerEventDuration());
+                break;
+            }
+            case vtkCommand::DestroyTimerEvent: {
+                const int id = own.interactor->GetTimerEventPlatformId();
+                std::erase_if(own.timers, [&](const auto& entry) {
+                    if (entry.first != id) return false;
+                    entry.second->stop();
+                    entry.second->deleteLater();
+                    return true;
+                });
+                break;
+            }
+            default: break;
+        }
+    });
+    for (const auto event : {vtkCommand::WindowMakeCurrentEvent, vtkCommand::WindowIsCurrentEvent,
+                             vtkCommand::WindowSupportsOpenGLEvent, vtkCommand::WindowIsDirectEvent})
+        parts.window->AddObserver(event, parts.events);
+    for (const auto event : {vtkCommand::RenderEvent, vtkCommand::CreateTimerEvent, vtkCommand::DestroyTimerEvent})
+        parts.interactor->AddObserver(event, parts.events);
+
+    parts.window->SetReadyForRendering(false);
+    parts.window->SetOwnContext(0);
+    parts.window->SetFrameBlitModeToNoBlit();
+    parts.window->SetMultiSamples(0);
+    parts.window->AddRenderer(parts.scene.renderer());
+    parts.interactor->SetRenderWindow(parts.window);
+    parts.interactor->EnableRenderOff();
+    parts.interactor->Initialize();
+    parts.scene.attach_interactor(parts.interactor);
+
+    parts.flight.setDuration(200);
+    parts.flight.setStartValue(0.0);
+    parts.flight.setEndValue(1.0);
+    parts.flight.setEasingCurve(QEasingCurve::InOutCubic);
+}
+
+MeshView::~MeshView() {
+    if (context()) context()->disconnect(this);
+    release_graphics();
+    parts_->window->RemoveObserver(parts_->events);
+    parts_->interactor->RemoveObserver(parts_->events);
+    parts_->interactor->SetRenderWindow(nullptr);
+}
+
+void MeshView::show_state(const MeshState& state) {
+    parts_->flight.stop();
+    parts_->scene.set_mesh(state.mesh.get(), state.quality.get());
+    parts_->state = state;
+    request_frame();
+}
+
+void MeshView::set_options(const SceneOptions& options) {
+    parts_->options = options;
+    scale_to_device();
+}
+
+const SceneOptions& MeshView::options() const { return parts_->options; }
+
+void MeshView::scale_to_device() {
+    parts_->options.pixel_ratio = devicePixelRatioF();
+    parts_->scene.set_options(parts_->options);
+    request_frame();
+}
+
+void MeshView::set_highlighted_elements(const std::vector<Index>& elements) {
+    parts_->scene.set_highlighted_elements(elements);
+    request_frame();
+}
+
+void MeshView::look(ViewDirection direction) {
+    parts_->flight.stop();
+    parts_->scene.look(direction);
+    request_frame();
+}
+
+void MeshView::fly_to(Index element) {
+    Parts& parts = *parts_;
+    parts.flight.stop();
+    vtkRenderer* renderer = parts.scene.renderer();
+    const CameraPose start = CameraPose::of(renderer->GetActiveCamera());
+    parts.scene.focus_element(element);
+    const CameraPose end = CameraPose::of(renderer->GetActiveCamera());
+    parts.flight.disconnect(this);
+    connect(&parts.flight, &QVariantAnimation::valueChanged, this, [this, renderer, start, end](const QVariant& value) {
+        between(start, end, value.toDouble()).apply(renderer->GetActiveCamera());
+        renderer->ResetCameraClippingRange();
+        request_frame();
+    });
+    parts.flight.start();
+}
+
+QImage MeshView::picture(int scale) {
+    Parts& parts = *parts_;
+    if (!parts.window->GetReadyForRendering()) return {};
+    makeCurrent();
+    const std::array<int, 2> shown{parts.window->GetSize()[0], parts.window->GetSize()[1]};
+    const int width = shown[0] * scale, height = shown[1] * scale;
+    SceneOptions enlarged = parts.options;
+    enlarged.pixel_ratio *= scale;
+    parts.scene.set_options(enlarged);
+    parts.window->SetSize(width, height);
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    state->vtkglDepthFunc(GL_LEQUAL);
+    parts.window->Render();
+    state->Pop();
+    vtkNew<vtkUnsignedCharArray> pixels;
+    const bool is_read = parts.window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels.Get(), 0) != 0;
+    QImage image;
+    if (is_read && pixels->GetNumberOfValues() == vtkIdType(3) * width * height)
+        image = QImage(pixels->GetPointer(0), width, height, 3 * width, QImage::Format_RGB888).mirrored();
+    parts.scene.set_options(parts.options);
+    parts.window->SetSize(shown[0], shown[1]);
+    doneCurrent();
+    request_frame();
+    return image;
+}
+
+void MeshView::initializeGL() {
+    Parts& parts = *parts_;
+    parts.gl = QOpenGLVersionFunctionsFactory::get<QOpenGLFunctions_3_2_Core>(context());
+    if (!parts.gl) qFatal("The OpenGL context of the view lacks OpenGL 3.2.");
+    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &MeshView::release_graphics, Qt::UniqueConnection);
+    parts.window->SetForceMaximumHardwareLineWidth(1);
+    parts.window->SetReadyForRendering(true);
+    parts.window->SetMapped(1);
+    parts.window->OpenGLInitContext();
+    parts.is_stale = true;
+}
+
+void MeshView::release_graphics() {
+    Parts& parts = *parts_;
+    if (!parts.window->GetReadyForRendering()) return;
+    makeCurrent();
+    parts.window->Finalize();
+    parts.window->SetReadyForRendering(false);
+    doneCurrent();
+}
+
+void MeshView::resizeGL(int, int) {
+    // The framebuffer's own size: rounding of fractional ratios is Qt's.
+    const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
+    parts_->window->SetSize(size.width(), size.height());
+    parts_->interactor->SetSize(size.width(), size.height());
+    if (parts_->options.pixel_ratio != devicePixelRatioF()) scale_to_device();
+    parts_->is_stale = true;
+}
+
+void MeshView::paintGL() {
+    Parts& parts = *parts_;
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
+    state->vtkglDepthFunc(GL_LEQUAL);
+    if (parts.is_stale) {
+        parts.is_stale = false;
+        parts.window->Render();
+    }
+    const int* size = parts.window->GetSize();
+    parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
+    parts.gl->glDrawBuffer(GL_COLOR_ATTACHMENT0);
+    state->vtkglDisable(GL_SCISSOR_TEST);
+    state->vtkglDisable(GL_BLEND);
+    parts.window->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
+                                         GL_NEAREST);
+    // Opaque whatever VTK has left in the alpha channel: the window below must not shine through.
+    parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    state->vtkglClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    parts.gl->glClear(GL_COLOR_BUFFER_BIT);
+    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    state->Pop();
+    parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+}
+
+void MeshView::request_frame() {
+    parts_->is_stale = true;
+    update();
+}
+
+void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat) {
+    const double ratio = devicePixelRatioF();
+    const int height = parts_->window->GetSize()[1];
+    parts_->interactor->SetEventInformation(static_cast<int>(position.x() * ratio),
+                                            height - 1 - static_cast<int>(position.y() * ratio),
+                                            modifiers.testFlag(Qt::ControlModifier),
+                                            modifiers.testFlag(Qt::ShiftModifier), 0, is_repeat ? 1 : 0);
+    parts_->interactor->SetAltKey(modifiers.testFlag(Qt::AltModifier));
+    parts_->interactor->InvokeEvent(vtk_event);
+}
+
+void MeshView::mousePressEvent(QMouseEvent* event) {
+    parts_->flight.stop();
+    parts_->may_be_click = event->button() == Qt::LeftButton;
+    parts_->press_position = event->position();
+    const auto vtk_event = event->button() == Qt::LeftButton    ? vtkCommand::LeftButtonPressEvent
+                           : event->button() == Qt::RightButton ? vtkCommand::RightButtonPressEvent
+                                                                : vtkCommand::MiddleButtonPressEvent;
+    send(vtk_event, event->position(), event->modifiers());
+}
+
+void MeshView::mouseMoveEvent(QMouseEvent* event) {
+    if ((event->position() - parts_->press_position).manhattanLength() > click_distance) parts_->may_be_click = false;
+    send(vtkCommand::MouseMoveEvent, event->position(), event->modifiers());
+}
+
+void MeshView::mouseReleaseEvent(QMouseEvent* event) {
+    const auto vtk_event = event->button() == Qt::LeftButton    ? vtkCommand::LeftButtonReleaseEvent
+                           : event->button() == Qt::RightButton ? vtkCommand::RightButtonReleaseEvent
+                                                                : vtkCommand::MiddleButtonReleaseEvent;
+    send(vtk_event, event->position(), event->modifiers());
+    if (event->button() != Qt::LeftButton || !parts_->may_be_click || !parts_->state.mesh) return;
+    const double ratio = devicePixelRatioF();
+    makeCurrent();
+    const auto element = parts_->scene.pick_element(event->position().x() * ratio,
+                                                    parts_->window->GetSize()[1] - 1 - event->position().y() * ratio);
+    doneCurrent();
+    emit element_clicked(element);
+}
+
+void MeshView::wheelEvent(QWheelEvent* event) {
+    parts_->flight.stop();
+    const int delta = event->angleDelta().y();
+    if (delta == 0) return;
+    send(delta > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent, event->position(),
+         event->modifiers());
+    event->accept();
+}
+
+void MeshView::leaveEvent(QEvent*) { parts_->interactor->InvokeEvent(vtkCommand::LeaveEvent); }
+
+}  // namespace curvewright

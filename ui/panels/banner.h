@@ -1,0 +1,33 @@
+#pragma once
+
+#include <functional>
+
+#include <QWidget>
+
+#include "ui/panels/theme.h"
+
+class QLabel;
+class QPushButton;
+
+namespace curvewright {
+
+/// A line over the view that warns of something and offers to put it right.
+class Banner : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit Banner(const Theme& theme, QWidget* parent = nullptr);
+
+    /// Shows a text; action may be "" (no button).
+    void show_warning(const QString& text, const QString& action);
+    QString text() const;
+
+  signals:
+    void action_triggered();
+
+  private:
+    QLabel* text_ = nullptr;
+    QPushButton* action_ = nullptr;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,109 @@
+#include "ui/panels/mesh_panel.h"
+
+#include <QDir>
+#include <QHeaderView>
+#include <QLabel>
+#include <QTreeWidget>
+#include <QUndoView>
+#include <QVBoxLayout>
+
+#include "ui/document/number_format.h"
+#include "ui/panels/widgets.h"
+
+namespace curvewright {
+
+MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent), document_(document) {
+    file_ = make_label(QString(), "title");
+    file_->setObjectName(QStringLiteral("file_name"));
+    file_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    elements_ = make_paragraph(QString(), "");
+    elements_->setObjectName(QStringLiteral("mesh_elements"));
+    nodes_ = make_label(QString(), "muted");
+    validity_ = make_paragraph(QString(), "");
+    validity_->setObjectName(QStringLiteral("mesh_validity"));
+    minimum_ = make_paragraph(QString(), "muted");
+    minimum_->setObjectName(QStringLiteral("mesh_minimum"));
+
+    groups_ = new QTreeWidget;
+    groups_->setObjectName(QStringLiteral("groups"));
+    groups_->setColumnCount(2);
+    groups_->setHeaderLabels({tr("Name"), tr("Nodes")});
+    groups_->headerItem()->setTextAlignment(1, Qt::AlignRight);
+    groups_->setRootIsDecorated(false);
+    groups_->setUniformRowHeights(true);
+    groups_->header()->setStretchLastSection(false);
+    groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
+    groups_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
+    groups_->setToolTip(tr("Click a group to see its elements"));
+
+    history_ = new QUndoView(document.history());
+    history_->setObjectName(QStringLiteral("history"));
+    history_->setUniformItemSizes(true);
+    history_->setToolTip(tr("Click a step to go back to it"));
+
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(12, 4, 12, 12);
+    layout->setSpacing(2);
+    for (QLabel* label : {file_, elements_, nodes_}) layout->addWidget(label);
+    layout->addSpacing(4);
+    for (QLabel* label : {validity_, minimum_}) layout->addWidget(label);
+    layout->addSpacing(8);
+    layout->addWidget(make_label(tr("Groups"), "section"));
+    layout->addSpacing(2);
+    layout->addWidget(groups_, 3);
+    layout->addSpacing(8);
+    layout->addWidget(make_label(tr("History"), "section"));
+    layout->addSpacing(2);
+    layout->addWidget(history_, 2);
+
+    connect(&document, &MeshDocument::opened, this, &MeshPanel::show_groups);
+    connect(&document, &MeshDocument::state_changed, this, &MeshPanel::show_state);
+    connect(&document, &MeshDocument::file_path_changed, this, &MeshPanel::show_file);
+    connect(groups_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
+        emit elements_chosen(group_lines_[groups_->indexOfTopLevelItem(item)].elements);
+    });
+    show_file();
+    show_state();
+}
+
+void MeshPanel::set_history_enabled(bool is_enabled) { history_->setEnabled(is_enabled); }
+
+void MeshPanel::show_file() {
+    const QString name = document_.file_name();
+    file_->setText(name.isEmpty() ? tr("No mesh open") : name);
+    file_->setToolTip(QDir::toNativeSeparators(document_.file_path()));
+    history_->setEmptyLabel(name.isEmpty() ? QString() : tr("Open %1").arg(name));
+}
+
+void MeshPanel::show_state() {
+    const MeshState& state = document_.state();
+    for (QLabel* label : {elements_, nodes_, validity_, minimum_}) label->setVisible(state.mesh != nullptr);
+    if (!state.mesh) return;
+    const MeshTopology& topology = state.mesh->topology();
+    elements_->setText(describe_elements(topology));
+    nodes_->setText(tr("%1 nodes, %2D").arg(format_count(topology.node_count())).arg(topology.dimension()));
+    if (!state.quality) {
+        validity_->setText(state.quality_note);
+        set_tone(validity_, "warning");
+        minimum_->hide();
+        return;
+    }
+    const QualitySummary& summary = state.quality->summary;
+    validity_->setText(describe_validity(summary));
+    set_tone(validity_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
+    minimum_->setText(tr("scaled Jacobian ≥ %1").arg(format_number(summary.min)));
+    minimum_->setToolTip(exact_number(summary.min));
+}
+
+void MeshPanel::show_groups() {
+    groups_->clear();
+    group_lines_ = document_.has_mesh() ? list_groups(document_.state().mesh->topology()) : QVector<GroupLine>();
+    static const QString kinds[] = {tr("points"), tr("curves"), tr("surface"), tr("volume")};
+    for (const GroupLine& line : group_lines_) {
+        auto* item = new QTreeWidgetItem(groups_, {line.name, format_count(line.node_count)});
+        item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
+        item->setToolTip(0, tr("%1 (%2)").arg(line.name, kinds[qBound(0, line.dimension, 3)]));
+    }
+}
+
+}  // namespace curvewright

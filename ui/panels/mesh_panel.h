@@ -1,0 +1,43 @@
+#pragma once
+
+#include <vector>
+
+#include <QVector>
+#include <QWidget>
+
+#include "ui/document/mesh_document.h"
+#include "ui/document/mesh_text.h"
+
+class QLabel;
+class QTreeWidget;
+class QUndoView;
+
+namespace curvewright {
+
+/// What is open: file, elements, validity, groups, and the history to jump in.
+class MeshPanel : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit MeshPanel(MeshDocument& document, QWidget* parent = nullptr);
+
+    /// The history cannot be walked while a job runs.
+    void set_history_enabled(bool is_enabled);
+
+  signals:
+    /// Elements of a group that the user clicked.
+    void elements_chosen(const std::vector<Index>& elements);
+
+  private:
+    void show_file();
+    void show_state();
+    void show_groups();
+
+    MeshDocument& document_;
+    QLabel *file_ = nullptr, *elements_ = nullptr, *nodes_ = nullptr, *validity_ = nullptr, *minimum_ = nullptr;
+    QTreeWidget* groups_ = nullptr;
+    QUndoView* history_ = nullptr;
+    QVector<GroupLine> group_lines_;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,105 @@
+#pragma once
+
+#include <QDoubleSpinBox>
+#include <QWidget>
+
+#include "ui/jobs/mesh_jobs.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+class QPushButton;
+class QSpinBox;
+class QTreeWidget;
+
+namespace curvewright {
+
+/// What the three operation panels share: a button that runs the operation, and a line that tells why it cannot.
+class OperationPanel : public QWidget {
+    Q_OBJECT
+
+  public:
+    OperationPanel(MeshJobs& jobs, const QString& action, const QString& button_name, QWidget* parent);
+
+    /// Starts the operation with the parameters shown, as the button does.
+    virtual void run() = 0;
+    /// Why it cannot run now; empty if it can.
+    virtual QString why_not() const = 0;
+
+  protected:
+    /// Adds the button and the line at the end of the panel's layout; follows document and jobs from then on.
+    void finish_layout();
+    virtual void refresh();
+
+    MeshJobs& jobs_;
+    QLabel* reason_ = nullptr;
+    QPushButton* button_ = nullptr;
+};
+
+/// The loaded deformation and "Apply to boundary".
+class DeformPanel : public OperationPanel {
+    Q_OBJECT
+
+  public:
+    explicit DeformPanel(MeshJobs& jobs, QWidget* parent = nullptr);
+    void run() override;
+    QString why_not() const override { return jobs_.why_not_deform(); }
+
+  signals:
+    void load_requested();
+
+  private:
+    void refresh() override;
+    void show_deformation();
+
+    QLabel *file_ = nullptr, *applied_ = nullptr;
+    QPushButton* load_ = nullptr;
+    QTreeWidget* operations_ = nullptr;
+};
+
+/// Boundary as the deformation says, interior after it.
+class WarpPanel : public OperationPanel {
+    Q_OBJECT
+
+  public:
+    explicit WarpPanel(MeshJobs& jobs, QWidget* parent = nullptr);
+    void run() override;
+    QString why_not() const override { return jobs_.why_not_warp(); }
+    WarpOptions options() const;
+
+  private:
+    void refresh() override;
+
+    QComboBox *weights_ = nullptr, *solver_ = nullptr;
+    QLabel* applied_ = nullptr;
+};
+
+/// A spin box whose steps change the leading digit: 0.002, 0.003, ... 0.009, 0.01, 0.02.
+class LogSpinBox : public QDoubleSpinBox {
+    Q_OBJECT
+
+  public:
+    using QDoubleSpinBox::QDoubleSpinBox;
+    void stepBy(int steps) override;
+    QString textFromValue(double value) const override;
+};
+
+/// Signed angles and their parameters.
+class UntanglePanel : public OperationPanel {
+    Q_OBJECT
+
+  public:
+    explicit UntanglePanel(MeshJobs& jobs, QWidget* parent = nullptr);
+    void run() override;
+    QString why_not() const override { return jobs_.why_not_untangle(); }
+    SignedAngleOptions options() const;
+    void set_beta(double beta);
+
+  private:
+    QComboBox* method_ = nullptr;
+    LogSpinBox* beta_ = nullptr;
+    QSpinBox* passes_ = nullptr;
+    QCheckBox* reject_ = nullptr;
+};
+
+}  // namespace curvewright

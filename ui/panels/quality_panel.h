@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include <QWidget>
+
+#include "ui/document/mesh_document.h"
+#include "ui/panels/theme.h"
+
+class QCheckBox;
+class QComboBox;
+class QLabel;
+
+namespace curvewright {
+
+class HistogramWidget;
+
+/// Before and after, side by side on one scale, with the figures of each.
+class QualityPanel : public QWidget {
+    Q_OBJECT
+
+  public:
+    QualityPanel(MeshDocument& document, const Theme& theme, QWidget* parent = nullptr);
+
+  signals:
+    /// Elements of the present mesh that the user picked in a histogram.
+    void elements_chosen(const std::vector<Index>& elements);
+
+  private:
+    struct Side {
+        QLabel* title = nullptr;
+        HistogramWidget* histogram = nullptr;
+        QLabel *figures = nullptr, *validity = nullptr;
+    };
+    Side make_side(const QString& object_name);
+    void refresh();
+    static void show_figures(const Side& side, const MeshState& state);
+
+    MeshDocument& document_;
+    const Theme& theme_;
+    Side before_, after_;
+    QComboBox* reference_ = nullptr;
+    QCheckBox* logarithmic_ = nullptr;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,48 @@
+#include "ui/scene/overlay_text.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTextActor.h>
+#include <vtkTextProperty.h>
+
+namespace curvewright {
+
+OverlayText::OverlayText(vtkRenderer* renderer) : renderer_(renderer), actor_(vtkSmartPointer<vtkTextActor>::New()) {
+    actor_->VisibilityOff();
+    actor_->PickableOff();
+    actor_->GetTextProperty()->SetFontFamilyToArial();
+    renderer->AddViewProp(actor_);
+}
+
+void OverlayText::show(const std::string& text, double x, double y, double pixels, const Color& color,
+                       TextAnchor anchor, bool is_bold) {
+    vtkTextProperty* style = actor_->GetTextProperty();
+    // Font sizes are points of the window's resolution; ours are pixels.
+    const int dpi = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() : 72;
+    style->SetFontSize(std::max(1, static_cast<int>(std::lround(pixels * 72.0 / std::max(1, dpi)))));
+    style->SetBold(is_bold);
+    style->SetColor(color[0], color[1], color[2]);
+    style->SetVerticalJustificationToCentered();
+    if (anchor == TextAnchor::left) style->SetJustificationToLeft();
+    if (anchor == TextAnchor::right) style->SetJustificationToRight();
+    if (anchor == TextAnchor::center) style->SetJustificationToCentered();
+    actor_->SetInput(text.c_str());
+    // Whole pixels keep the glyphs crisp.
+    actor_->SetDisplayPosition(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)));
+    actor_->VisibilityOn();
+}
+
+void OverlayText::hide() {
+    actor_->VisibilityOff();
+}
+
+std::string format_value(double value) {
+    std::string text = fmt::format("{:#.3g}", value);
+    if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
+    return text;
+}
+
+}  // namespace curvewright

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include "ui/palette/quality_colors.h"
+#include "ui/scene/view_metrics.h"
+
+class vtkActor;
+class vtkOpenGLPolyDataMapper;
+class vtkPolyData;
+
+namespace curvewright {
+
+/// Polylines to be stroked.
+struct Polylines {
+    std::vector<float> points;      ///< 3 per point
+    std::vector<Index> offsets{0};  ///< polyline k is the points offsets[k] .. offsets[k+1] - 1
+    /// Per polyline, optional: distance to its neighbours in the unit of the points; see StrokeStyle::fades.
+    std::vector<float> spacing;
+    /// Per polyline, optional: its own colour (otherwise that of the style).
+    std::vector<Color> colors;
+
+    void add(const std::vector<std::array<double, 3>>& line);
+    Index count() const { return static_cast<Index>(offsets.size()) - 1; }
+};
+
+struct StrokeStyle {
+    Color color{0.0, 0.0, 0.0};
+    double opacity = 1.0;
+    double width = 1.0;         ///< units of the pixel ratio
+    double cap = 0.5;           ///< how far ends reach beyond the last point, in half widths
+    double dash = 0.0;          ///< period of dots, units of the pixel ratio; 0 = solid
+    double depth_bias = 0.0;    ///< towards the eye, in units of the depth range (2)
+    bool is_on_top = false;     ///< drawn over everything
+    bool fades = false;         ///< thinner and paler where the spacing of the lines is a few pixels only
+    bool is_in_pixels = false;  ///< points are display positions in device pixels instead of mesh coordinates
+};
+
+/// Lines of constant width on the screen with smooth edges: every polyline is a ribbon that the vertex shader turns to
+/// the eye. Unlike GL lines they look the same with every driver, with and without multisampling.
+class StrokeActor {
+  public:
+    StrokeActor();
+    ~StrokeActor();
+    StrokeActor(const StrokeActor&) = delete;
+    StrokeActor& operator=(const StrokeActor&) = delete;
+
+    vtkActor* actor() const { return actor_; }
+    /// length_unit: size of the unit of the points in the world (or 1 for pixels).
+    void set_lines(const Polylines& lines, double length_unit);
+    void clear() { set_lines({}, 1.0); }
+    void set_style(const StrokeStyle& style);
+    const StrokeStyle& style() const { return style_; }
+    /// Before every frame.
+    void update(const ViewMetrics& view);
+
+  private:
+    StrokeStyle style_;
+    vtkNew<vtkActor> actor_;
+    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<vtkPolyData> data_;
+};
+
+}  // namespace curvewright

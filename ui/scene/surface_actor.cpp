@@ -1,0 +1,167 @@
+#include "ui/scene/surface_actor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkOpenGLPolyDataMapper.h>
+#include <vtkOpenGLVertexBufferObject.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkShaderProperty.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUniforms.h>
+#include <vtkUnsignedCharArray.h>
+
+namespace curvewright {
+namespace {
+
+constexpr const char* bias_code = R"(
+//VTK::PositionVC::Impl
+  gl_Position.z -= surfaceBias * gl_Position.w;
+)";
+
+constexpr const char* hatch_code = R"(
+//VTK::Light::Impl
+  if (hatchPeriod > 0.0) {
+    float position = (gl_FragCoord.x + gl_FragCoord.y) * 0.70710678;
+    float beside = abs(mod(position, hatchPeriod) - 0.5 * hatchPeriod);
+    float stripe = clamp(0.5 * hatchWidth + 0.5 - beside, 0.0, 1.0);
+    gl_FragData[0].rgb = mix(gl_FragData[0].rgb, hatchColor, stripe);
+  }
+)";
+
+// Surfaces step back by as much as they change their depth within the width of a line, so that lines on them show whole
+// on faces seen almost from the side too.
+constexpr const char* depth_code = R"(
+//VTK::Depth::Impl
+  float slope = length(vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)));
+  gl_FragDepth = gl_FragCoord.z + min(surfaceStep * slope, 0.004);
+)";
+constexpr double step_width = 1.6;
+
+constexpr double hatch_period = 6.0, hatch_width = 1.6;
+
+vtkSmartPointer<vtkFloatArray> copy_triples(const std::vector<float>& values) {
+    auto array = vtkSmartPointer<vtkFloatArray>::New();
+    array->SetNumberOfComponents(3);
+    array->SetNumberOfTuples(static_cast<vtkIdType>(values.size() / 3));
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+}  // namespace
+
+SurfaceActor::SurfaceActor() {
+    mapper_->SetInputData(data_);
+    mapper_->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+    actor_->SetMapper(mapper_);
+    actor_->ForceOpaqueOn();
+    actor_->UseBoundsOff();
+    actor_->VisibilityOff();
+    vtkShaderProperty* shader = actor_->GetShaderProperty();
+    shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, bias_code, false);
+    shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, hatch_code, false);
+    vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
+    uniforms->SetUniformf("hatchPeriod", 0.0f);
+    uniforms->SetUniformf("hatchWidth", 0.0f);
+    uniforms->SetUniformf("surfaceStep", 0.0f);
+    const float black[3] = {0.0f, 0.0f, 0.0f};
+    uniforms->SetUniform3f("hatchColor", black);
+    set_depth_bias(0.0);
+    is_lit_ = true;
+    set_lit(false);
+}
+
+SurfaceActor::~SurfaceActor() = default;
+
+void SurfaceActor::set_surface(const Tessellation& tessellation, bool is_new) {
+    actor_->SetVisibility(!tessellation.triangles().empty());
+    if (is_new) {
+        data_->Initialize();
+        const auto& corners = tessellation.triangles();
+        auto ids = vtkSmartPointer<vtkTypeInt64Array>::New();
+        auto starts = vtkSmartPointer<vtkTypeInt64Array>::New();
+        ids->SetNumberOfValues(static_cast<vtkIdType>(corners.size()));
+        std::copy(corners.begin(), corners.end(), ids->GetPointer(0));
+        const auto count = static_cast<vtkIdType>(corners.size() / 3);
+        starts->SetNumberOfValues(count + 1);
+        for (vtkIdType i = 0; i <= count; ++i) starts->SetValue(i, 3 * i);
+        vtkNew<vtkCellArray> triangles;
+        triangles->SetData(starts, ids);
+        data_->SetPolys(triangles);
+    }
+    vtkNew<vtkPoints> points;
+    points->SetData(copy_triples(tessellation.surface_points()));
+    data_->SetPoints(points);
+    data_->GetPointData()->SetNormals(is_lit_ ? copy_triples(tessellation.surface_normals()) : nullptr);
+    data_->Modified();
+}
+
+void SurfaceActor::set_colors(const Tessellation& tessellation, const std::function<Color(Index)>& color_of) {
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetNumberOfComponents(3);
+    colors->SetNumberOfTuples(static_cast<vtkIdType>(tessellation.surface_points().size() / 3));
+    unsigned char* at = colors->GetPointer(0);
+    // Every point belongs to one element only, so its triangles agree on the colour.
+    const auto& elements = tessellation.triangle_elements();
+    Index last = -1;
+    std::array<unsigned char, 3> bytes{};
+    for (std::size_t triangle = 0; triangle < elements.size(); ++triangle) {
+        if (elements[triangle] != last) {
+            last = elements[triangle];
+            const Color color = color_of(last);
+            for (std::size_t c = 0; c < 3; ++c)
+                bytes[c] = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[c], 0.0, 1.0)));
+        }
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            std::copy(bytes.begin(), bytes.end(), at + 3 * tessellation.triangles()[3 * triangle + corner]);
+    }
+    data_->GetPointData()->SetScalars(colors);
+    data_->Modified();
+}
+
+void SurfaceActor::clear() {
+    data_->Initialize();
+    actor_->VisibilityOff();
+}
+
+void SurfaceActor::set_lit(bool is_lit) {
+    if (is_lit == is_lit_) return;
+    is_lit_ = is_lit;
+    vtkProperty* property = actor_->GetProperty();
+    property->SetLighting(is_lit);
+    // A face that looks at the eye has exactly the colour of the legend.
+    property->SetAmbient(is_lit ? 0.58 : 1.0);
+    property->SetDiffuse(is_lit ? 0.42 : 0.0);
+    property->SetSpecular(0.0);
+    property->SetInterpolationToPhong();
+    vtkShaderProperty* shader = actor_->GetShaderProperty();
+    shader->ClearFragmentShaderReplacement("//VTK::Depth::Impl", true);
+    if (is_lit) shader->AddFragmentShaderReplacement("//VTK::Depth::Impl", true, depth_code, false);
+}
+
+void SurfaceActor::set_depth_bias(double bias) {
+    actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniformf("surfaceBias", static_cast<float>(bias));
+}
+
+void SurfaceActor::set_hatch(const Color& color) {
+    vtkUniforms* uniforms = actor_->GetShaderProperty()->GetFragmentCustomUniforms();
+    const float rgb[3] = {static_cast<float>(color[0]), static_cast<float>(color[1]), static_cast<float>(color[2])};
+    uniforms->SetUniform3f("hatchColor", rgb);
+    is_hatched_ = true;
+}
+
+void SurfaceActor::update(const ViewMetrics& view) {
+    vtkUniforms* uniforms = actor_->GetShaderProperty()->GetFragmentCustomUniforms();
+    uniforms->SetUniformf("surfaceStep", static_cast<float>(step_width * view.pixel_ratio));
+    if (!is_hatched_) return;
+    uniforms->SetUniformf("hatchPeriod", static_cast<float>(hatch_period * view.pixel_ratio));
+    uniforms->SetUniformf("hatchWidth", static_cast<float>(hatch_width * view.pixel_ratio));
+}
+
+}  // namespace curvewright

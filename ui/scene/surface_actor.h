@@ -1,0 +1,47 @@
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include <vtkNew.h>
+
+#include "core/tessellate/tessellation.h"
+#include "ui/palette/quality_colors.h"
+#include "ui/scene/view_metrics.h"
+
+class vtkActor;
+class vtkOpenGLPolyDataMapper;
+class vtkPolyData;
+
+namespace curvewright {
+
+/// The surface of a tessellation, one colour per element; on request hatched with stripes of constant width on the
+/// screen.
+class SurfaceActor {
+  public:
+    SurfaceActor();
+    ~SurfaceActor();
+    SurfaceActor(const SurfaceActor&) = delete;
+    SurfaceActor& operator=(const SurfaceActor&) = delete;
+
+    vtkActor* actor() const { return actor_; }
+    /// is_new: the connectivity is not that of the call before.
+    void set_surface(const Tessellation& tessellation, bool is_new);
+    void set_colors(const Tessellation& tessellation, const std::function<Color(Index element)>& color_of);
+    void clear();
+
+    /// Soft light from the eye (3D), or the colours as they are (2D).
+    void set_lit(bool is_lit);
+    void set_depth_bias(double bias);
+    void set_hatch(const Color& color);
+    /// Before every frame.
+    void update(const ViewMetrics& view);
+
+  private:
+    bool is_lit_ = false, is_hatched_ = false;
+    vtkNew<vtkActor> actor_;
+    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<vtkPolyData> data_;
+};
+
+}  // namespace curvewright

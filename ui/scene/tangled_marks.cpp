@@ -1,0 +1,151 @@
+#include "ui/scene/tangled_marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <vtkActor.h>
+#include <vtkRenderer.h>
+
+#include "ui/scene/element_spacing.h"
+
+namespace curvewright {
+namespace {
+
+constexpr double ring_radius = 10.0;        ///< units of the pixel ratio
+constexpr double ring_needed_below = 13.0;  ///< radius of an element on the screen, units of the pixel ratio
+constexpr std::size_t most_rings = 400;
+
+Polylines edge_lines(const CurvedMesh& mesh, const Tessellation& tessellation) {
+    Polylines lines;
+    lines.points = tessellation.edge_points();
+    lines.offsets = tessellation.line_offsets();
+    lines.spacing = line_spacing(mesh, tessellation);
+    return lines;
+}
+
+bool is_tangled(const ElementQuality& quality) {
+    return quality.validity == Validity::invalid ||
+           (quality.validity == Validity::valid && quality.scaled_jacobian <= 0.0);
+}
+
+}  // namespace
+
+TangledMarks::TangledMarks(vtkRenderer* renderer) {
+    for (vtkActor* actor : {undecided_halo_.actor(), undecided_.actor(), hatched_.actor(), halo_.actor(),
+                            outline_.actor(), ring_halo_.actor(), ring_.actor()})
+        renderer->AddActor(actor);
+    hatched_.actor()->PickableOff();
+    set_background(background_);
+}
+
+void TangledMarks::set_background(const Color& background) {
+    background_ = background;
+    const Color alarm = tangled_color();
+    Color stripe{}, dark{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        stripe[c] = 0.25 * alarm[c] + 0.75;
+        dark[c] = 0.75 * undecided_color()[c];
+    }
+    hatched_.set_hatch(stripe);
+    halo_.set_style(
+        {.color = background, .opacity = 0.9, .width = 5.2, .cap = 1.0, .depth_bias = 1.1e-3, .fades = true});
+    outline_.set_style({.color = alarm, .width = 2.4, .cap = 1.0, .depth_bias = 2.0e-3, .fades = true});
+    undecided_halo_.set_style({.color = background, .opacity = 0.9, .width = 4.5, .cap = 1.0, .depth_bias = 0.6e-3});
+    undecided_.set_style({.color = dark, .width = 2.4, .cap = 0.0, .dash = 6.0, .depth_bias = 0.8e-3});
+    ring_halo_.set_style({.color = background, .opacity = 0.85, .width = 4.0, .is_on_top = true, .is_in_pixels = true});
+    ring_.set_style({.color = alarm, .width = 1.8, .is_on_top = true, .is_in_pixels = true});
+}
+
+void TangledMarks::clear() {
+    hatched_.clear();
+    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_}) stroke->clear();
+    marks_.clear();
+}
+
+void TangledMarks::set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
+                            const WorldFrame& frame) {
+    clear();
+    std::vector<Index> tangled;
+    std::vector<bool> is_drawn_tangled(quality.elements.size(), false),
+        is_drawn_undecided(quality.elements.size(), false);
+    bool has_undecided = false;
+    for (std::size_t i = 0; i < quality.elements.size(); ++i) {
+        if (!visible.empty() && !visible[i]) continue;
+        if (is_tangled(quality.elements[i])) {
+            is_drawn_tangled[i] = true;
+            tangled.push_back(static_cast<Index>(i));
+        } else if (quality.elements[i].validity == Validity::undecided) {
+            is_drawn_undecided[i] = has_undecided = true;
+        }
+    }
+    const bool is_flat = mesh.topology().dimension() < 3;
+    if (!tangled.empty()) {
+        const Tessellation tessellation(mesh, is_drawn_tangled);
+        hatched_.set_lit(!is_flat);
+        hatched_.set_depth_bias(is_flat ? 1.0e-3 : 1.0e-5);
+        hatched_.set_surface(tessellation, true);
+        hatched_.set_colors(tessellation, [](Index) { return tangled_color(); });
+        frame.place(hatched_.actor(), tessellation.origin());
+        const Polylines lines = edge_lines(mesh, tessellation);
+        for (StrokeActor* stroke : {&halo_, &outline_}) {
+            stroke->set_lines(lines, 1.0 / frame.size);
+            frame.place(stroke->actor(), tessellation.origin());
+        }
+    }
+    if (has_undecided) {
+        const Tessellation tessellation(mesh, is_drawn_undecided);
+        for (StrokeActor* stroke : {&undecided_halo_, &undecided_}) {
+            stroke->set_lines(edge_lines(mesh, tessellation), 1.0 / frame.size);
+            frame.place(stroke->actor(), tessellation.origin());
+        }
+    }
+    std::stable_sort(tangled.begin(), tangled.end(), [&quality](Index a, Index b) {
+        return quality.elements[a].scaled_jacobian < quality.elements[b].scaled_jacobian;
+    });
+    for (Index element : tangled) {
+        const Eigen::MatrixX3d x = mesh.element_coordinates(element);
+        const Eigen::RowVector3d center = 0.5 * (x.colwise().minCoeff() + x.colwise().maxCoeff());
+        marks_.push_back({frame.to_world(center), (x.rowwise() - center).rowwise().norm().maxCoeff() / frame.size});
+    }
+}
+
+void TangledMarks::update(const ViewMetrics& view) {
+    draw_rings(view);
+    hatched_.update(view);
+    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_})
+        stroke->update(view);
+}
+
+void TangledMarks::draw_rings(const ViewMetrics& view) {
+    const double radius = ring_radius * view.pixel_ratio;
+    std::vector<Eigen::Vector2d> centers;
+    Polylines rings;
+    for (const Mark& mark : marks_) {
+        if (centers.size() == most_rings) break;
+        const Eigen::Vector4d at = view.project(mark.center);
+        if (at[3] <= 0.0) continue;
+        const Eigen::Vector2d center = at.head<2>();
+        if (mark.radius * view.pixels_per_unit(at[3]) > ring_needed_below * view.pixel_ratio) continue;
+        if (center[0] < -radius || center[1] < -radius || center[0] > view.size[0] + radius ||
+            center[1] > view.size[1] + radius)
+            continue;
+        // Where many are close together the ring of the worst speaks for all.
+        const bool is_crowded = std::any_of(centers.begin(), centers.end(), [&](const Eigen::Vector2d& other) {
+            return (other - center).norm() < 1.6 * radius;
+        });
+        if (is_crowded) continue;
+        centers.push_back(center);
+        std::vector<std::array<double, 3>> line;
+        constexpr int pieces = 40;
+        for (int i = 0; i <= pieces; ++i) {
+            const double angle = 2.0 * std::numbers::pi * (i % pieces) / pieces;
+            line.push_back({center[0] + radius * std::cos(angle), center[1] + radius * std::sin(angle), 0.0});
+        }
+        rings.add(line);
+    }
+    ring_halo_.set_lines(rings, 1.0);
+    ring_.set_lines(rings, 1.0);
+}
+
+}  // namespace curvewright

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vector>
+
+#include "core/quality/quality.h"
+#include "ui/scene/stroke_actor.h"
+#include "ui/scene/surface_actor.h"
+
+class vtkRenderer;
+
+namespace curvewright {
+
+/// What makes tangled and undecided elements stand out without any sense of colour: tangled ones are hatched and
+/// outlined with a halo, and while they are only a few pixels large each has a ring of constant size; undecided ones
+/// have a dotted outline.
+class TangledMarks {
+  public:
+    explicit TangledMarks(vtkRenderer* renderer);
+
+    /// visible: one flag per element; empty = all.
+    void set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
+                  const WorldFrame& frame);
+    void clear();
+    void set_background(const Color& background);
+    /// Before every frame.
+    void update(const ViewMetrics& view);
+
+  private:
+    struct Mark {
+        Eigen::RowVector3d center;  ///< world
+        double radius = 0.0;        ///< world
+    };
+    void draw_rings(const ViewMetrics& view);
+
+    SurfaceActor hatched_;
+    StrokeActor halo_, outline_, undecided_halo_, undecided_, ring_halo_, ring_;
+    std::vector<Mark> marks_;  ///< of tangled elements, worst first
+    Color background_{1.0, 1.0, 1.0};
+};
+
+}  // namespace curvewright
