@@ -58,6 +58,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                            {"before", {{"scaled_jacobian", summary_json(before.summary)}}},
                            {"worst", worst_json(mesh, after)},
                            {"weights", to_string(options.warp.weighting)},
+                           {"distance_power", options.warp.distance_power},
                            {"solver",
                             {{"name", to_string(report.solver)},
                              {"iterations", report.iterations},
@@ -93,6 +94,11 @@ void add_warp(CLI::App& app, Invocation& invocation) {
             },
             "convex (default) or affine")
         ->check(CLI::IsMember({"convex", "affine"}));
+    command
+        ->add_option("--distance-power", options->warp.distance_power,
+                     "A neighbour at distance r counts r^-K; 0 = all alike, as in the thesis")
+        ->type_name("K")
+        ->capture_default_str();
     command
         ->add_option_function<std::string>(
             "--solver",

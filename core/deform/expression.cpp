@@ -46,7 +46,13 @@ CompiledExpression::CompiledExpression(const std::string& formula) : parser_(std
     parser.DefineFun("abs", [](double v) { return std::abs(v); });
     parser.DefineFun("min", &minimum);
     parser.DefineFun("max", &maximum);
+    // The library also knows assignments, comparisons and ?:, which the file format does not.
+    const auto stranger = formula.find_first_not_of(
+        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-*/^(), \t\r\n");
     try {
+        if (stranger != std::string::npos)
+            throw mu::Parser::exception_type(fmt::format("unexpected character '{}' at position {}", formula[stranger],
+                                                         stranger + 1));
         parser.SetExpr(formula);
         if (parser.Eval(), parser.GetNumResults() != 1)
             throw InvalidInput(fmt::format("the expression '{}' has {} values; one is expected", formula,

@@ -23,6 +23,7 @@ class MshScanner {
     std::size_t position() const { return position_; }
     /// Where the last word begins.
     std::size_t word_begin() const { return word_begin_; }
+    void move_to(std::size_t position) { position_ = std::min(position, text_.size()); }
     /// Bytes that have not been read yet.
     std::size_t remaining() const { return text_.size() - position_; }
     /// Line of a position (of the last word by default), counted from 1.
@@ -58,6 +59,14 @@ class MshScanner {
         if (!rest.empty() && rest.back() == '\r') rest.remove_suffix(1);
         return rest;
     }
+
+    /// Goes to the beginning of the next line and over that line.
+    void next_line() {
+        if (position_ < text_.size() && text_[position_] == '\n') ++position_;
+        rest_of_line();
+    }
+    /// Goes behind the next line that is blank.
+    void skip_to_blank_line() { position_ = std::min(text_.find("\n\n", position_), text_.size()); }
 
     template <class T>
     T integer(std::string_view what) {

@@ -1,5 +1,6 @@
 #include "core/io/vtk_io.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <cstring>
@@ -12,6 +13,7 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
@@ -24,6 +26,7 @@
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "core/base/error.h"
+#include "core/io/vtk_check.h"
 #include "core/io/vtk_grid.h"
 
 namespace curvewright {
@@ -39,45 +42,56 @@ class CapturingWindow : public vtkOutputWindow {
     }
 
     void DisplayText(const char* text) override { forward(text, &vtkOutputWindow::DisplayText); }
-    void DisplayErrorText(const char* text) override {
-        if (std::this_thread::get_id() == thread_)
-            first_error_ = first_error_.empty() ? text : first_error_;
-        else
-            forward(text, &vtkOutputWindow::DisplayErrorText);
-    }
-    void DisplayWarningText(const char* text) override { forward(text, &vtkOutputWindow::DisplayWarningText); }
+    void DisplayErrorText(const char* text) override { keep(text, error_, &vtkOutputWindow::DisplayErrorText); }
+    void DisplayWarningText(const char* text) override { keep(text, warning_, &vtkOutputWindow::DisplayWarningText); }
     void DisplayGenericWarningText(const char* text) override {
-        forward(text, &vtkOutputWindow::DisplayGenericWarningText);
+        keep(text, warning_, &vtkOutputWindow::DisplayGenericWarningText);
     }
 
     void set_previous(vtkOutputWindow* previous) { previous_ = previous; }
-    const std::string& first_error() const { return first_error_; }
+    /// The first of its kind; empty if there was none.
+    const std::string& error() const { return error_; }
+    const std::string& warning() const { return warning_; }
 
   private:
-    void forward(const char* text, void (vtkOutputWindow::*display)(const char*)) {
+    using Display = void (vtkOutputWindow::*)(const char*);
+
+    /// What other threads say meanwhile is passed on.
+    void forward(const char* text, Display display) {
         if (std::this_thread::get_id() != thread_ && previous_ != nullptr) (previous_->*display)(text);
+    }
+    void keep(const char* text, std::string& place, Display display) {
+        if (std::this_thread::get_id() == thread_ && place.empty()) place = text;
+        forward(text, display);
     }
 
     std::thread::id thread_ = std::this_thread::get_id();
     vtkSmartPointer<vtkOutputWindow> previous_;
-    std::string first_error_;
+    std::string error_, warning_;
 };
 
-/// Catches VTK's complaints for its lifetime. One at a time: VTK has one output window per process.
+/// Catches VTK's complaints for its lifetime. One at a time: VTK has one output window and one log per process.
 class Capture {
   public:
     Capture() : lock_(mutex()), previous_(vtkOutputWindow::GetInstance()) {
         window_->set_previous(previous_);
         vtkOutputWindow::SetInstance(window_);
+        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
     }
-    ~Capture() { vtkOutputWindow::SetInstance(previous_); }
+    ~Capture() {
+        vtkLogger::SetStderrVerbosity(verbosity_);
+        vtkOutputWindow::SetInstance(previous_);
+    }
     Capture(const Capture&) = delete;
     Capture& operator=(const Capture&) = delete;
 
-    bool has_error() const { return !window_->first_error().empty(); }
+    /// With warnings: legacy files that end too early give no more than that.
+    bool has_error(bool with_warnings = false) const {
+        return !window_->error().empty() || (with_warnings && !window_->warning().empty());
+    }
     /// The first complaint as one line, without VTK's "ERROR: In FILE, line N" and the address of the object.
     std::string message() const {
-        std::string text = window_->first_error();
+        std::string text = window_->error().empty() ? window_->warning() : window_->error();
         const std::size_t object = text.find("): ");
         if (object != text.npos) text = text.substr(object + 3);
         std::string line;
@@ -97,6 +111,7 @@ class Capture {
     std::lock_guard<std::mutex> lock_;
     vtkSmartPointer<vtkOutputWindow> previous_;
     vtkNew<CapturingWindow> window_;
+    vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
 };
 
 /// The rows of an array of numbers, in the shortest form that reads back as the same numbers.
@@ -142,7 +157,8 @@ std::string legacy_text(vtkUnstructuredGridWriter& writer, vtkUnstructuredGrid& 
 
 /// The grid that a legacy or XML reader makes of the text. The text must outlive the call.
 template <class Reader>
-vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file, const char* expected) {
+vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file, const char* expected,
+                                         bool with_warnings) {
     Capture capture;
     try {
         reader.Update();
@@ -154,10 +170,11 @@ vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file
     } catch (const std::exception& error) {
         throw InvalidInput(file, 0, fmt::format("the file is damaged ({}); {} was expected.", error.what(), expected));
     }
-    if (capture.has_error() || reader.GetErrorCode() != vtkErrorCode::NoError || reader.GetOutput() == nullptr)
+    const bool has_error = capture.has_error(with_warnings);
+    if (has_error || reader.GetErrorCode() != vtkErrorCode::NoError || reader.GetOutput() == nullptr)
         throw InvalidInput(file, 0,
                            fmt::format("the file cannot be read as {} ({}).", expected,
-                                       capture.has_error() ? capture.message() : "VTK gives no reason"));
+                                       has_error ? capture.message() : "VTK gives no reason"));
     return reader.GetOutput();
 }
 
@@ -169,22 +186,24 @@ ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format
         const char* expected = "a VTK XML unstructured grid";
         if (text.substr(0, 4096).find("UnstructuredGrid") == text.npos)
             throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
+        check_xml_arrays(text, file);
         vtkNew<vtkXMLUnstructuredGridReader> reader;
         reader->ReadFromInputStringOn();
         reader->SetInputString(text);
         text = {};
-        grid = run(*reader, file, expected);
+        grid = run(*reader, file, expected, false);
     } else {
         const char* expected = "a legacy VTK file with an unstructured grid";
         if (!text.starts_with("# vtk DataFile") || text.substr(0, 4096).find("UNSTRUCTURED_GRID") == text.npos)
             throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
         if (text.size() > static_cast<std::size_t>(INT_MAX))
             throw Unsupported(fmt::format("{}: legacy VTK files above 2 GB are not supported; use .vtu.", file));
+        LegacyVtkCheck(text, file).run();
         vtkNew<vtkUnstructuredGridReader> reader;
         reader->ReadFromInputStringOn();
         reader->SetInputString(text.data(), static_cast<int>(text.size()));
         text = {};
-        grid = run(*reader, file, expected);
+        grid = run(*reader, file, expected, true);
     }
     context.report("reading", 0.5);
     ReadResult result = mesh_of_grid(*grid, file, format);
@@ -224,7 +243,13 @@ void write_vtk(const std::filesystem::path& path, const std::string& target, con
         vtkNew<vtkUnstructuredGridWriter> writer;
         writer->SetFileName(path.c_str());
         writer->SetHeader("Curvewright mesh");
-        writer->SetFileVersion(vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
+        // Version 4.2 is what most other programs read, but in it VTK takes Lagrange hexahedra to be in its old order.
+        const auto& blocks = mesh.topology().blocks();
+        const bool has_curved_hexahedra = std::any_of(blocks.begin(), blocks.end(), [](const ElementBlock& block) {
+            return block.type.shape == Shape::hexahedron && block.type.order > 1;
+        });
+        writer->SetFileVersion(has_curved_hexahedra ? vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_5_1
+                                                    : vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
         writer->SetInputData(grid);
         if (is_text) {
             writer->SetFileTypeToASCII();

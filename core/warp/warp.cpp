@@ -28,6 +28,8 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     if (boundary_positions.rows() != topology.node_count())
         throw InvalidInput(fmt::format("The boundary positions are {} rows; the mesh has {} nodes.",
                                        boundary_positions.rows(), topology.node_count()));
+    if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
+        throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
     const int dim = topology.dimension();
     const auto& interior = topology.interior_nodes();
     WarpResult result{mesh.coordinates(), {}};
@@ -44,7 +46,7 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     const NeighbourSets sets = find_neighbours(topology, context);
     report.neighbours_seconds = watch.seconds();
     watch = {};
-    const WeightTable table = compute_weights(mesh, sets, options.weighting, context);
+    const WeightTable table = compute_weights(mesh, sets, options.weighting, options.distance_power, context);
     report.weights_seconds = watch.seconds();
     for (std::size_t i = 0; i < interior.size(); ++i) {
         if (table.status[i] == PatchStatus::outside_hull) report.outside_hull.push_back(interior[i]);

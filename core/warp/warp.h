@@ -9,8 +9,8 @@
 namespace curvewright {
 
 enum class Weighting {
-    convex,  ///< positive weights, maximum of sum log w (thesis 2.14-2.18)
-    affine,  ///< least 2-norm (thesis 2.6-2.9)
+    convex,  ///< positive weights, maximum of sum c log w (thesis 2.14-2.18, where c = 1)
+    affine,  ///< minimum of sum w^2 / c (thesis 2.6-2.9, where c = 1: least 2-norm)
 };
 const char* to_string(Weighting weighting);
 
@@ -19,6 +19,10 @@ const char* to_string(SolverChoice solver);
 
 struct WarpOptions {
     Weighting weighting = Weighting::convex;
+    /// Influence of a neighbour at distance r: c = r^-distance_power. 0 gives the thesis's weights, in which all nodes of
+    /// the patch count alike. Beyond the thesis: with 2 the near neighbours count more, so that small elements are stiffer
+    /// than large ones and follow a moving boundary with less distortion, at the same cost.
+    double distance_power = 2.0;
     SolverChoice solver = SolverChoice::automatic;
     /// Residual of the linear system, relative to its right-hand side, at which the iterative solver stops.
     double residual_tolerance = 1e-12;

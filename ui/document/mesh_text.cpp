@@ -4,6 +4,7 @@
 #include <map>
 #include <set>
 
+#include <QCollator>
 #include <QCoreApplication>
 #include <QStringList>
 
@@ -82,8 +83,10 @@ QVector<GroupLine> list_groups(const MeshTopology& topology) {
         lines.push_back({QString::fromStdString(name), group.dimension, static_cast<Index>(nodes.size()),
                          elements_of_group(topology, group, nodes)});
     }
-    std::stable_sort(lines.begin(), lines.end(), [](const GroupLine& a, const GroupLine& b) {
-        return a.dimension > b.dimension || (a.dimension == b.dimension && a.name.localeAwareCompare(b.name) < 0);
+    QCollator collator;
+    collator.setNumericMode(true);  // hole2 before hole10
+    std::stable_sort(lines.begin(), lines.end(), [&collator](const GroupLine& a, const GroupLine& b) {
+        return a.dimension > b.dimension || (a.dimension == b.dimension && collator.compare(a.name, b.name) < 0);
     });
     return lines;
 }

@@ -85,7 +85,10 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         Step result = step(*start.mesh, context);
         MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context);
         state.applied_deformations = applied;
-        return [this, state = std::move(state), name = result.name, text = result.note] {
+        QString text = result.note;
+        if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
+            text += QLatin1Char(' ') + result.advice;
+        return [this, state = std::move(state), name = result.name, text] {
             document_.apply(name, state);
             if (!text.isEmpty()) emit note(text);
         };
@@ -102,6 +105,7 @@ bool MeshJobs::deform() {
         step.name = tr("Deform boundary (%1)").arg(file);
         step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
                         .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
+        step.advice = tr("Untangle the elements that have tangled, or undo and warp instead.");
         return step;
     });
 }
@@ -125,6 +129,7 @@ bool MeshJobs::warp(const WarpOptions& options) {
         if (!report.degenerate.empty())
             step.note += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
                              .arg(format_count(static_cast<long long>(report.degenerate.size())));
+        step.advice = tr("Untangle the elements that have tangled.");
         step.coordinates = std::move(result.coordinates);
         return step;
     });
@@ -144,6 +149,7 @@ bool MeshJobs::untangle(const SignedAngleOptions& options) {
                 step.note = tr("Stopped after %1: the last one made things worse and was taken back.").arg(passes);
                 break;
         }
+        step.advice = tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
         step.coordinates = std::move(result.coordinates);
         return step;
     });

@@ -64,6 +64,7 @@ class MeshJobs : public QObject {
         Coordinates coordinates;
         QString name;
         QString note;
+        QString advice;  ///< what to do next if elements are tangled in the new state
     };
     bool run_step(const QString& title, bool applies_deformation,
                   std::function<Step(const CurvedMesh&, const TaskContext&)> step);

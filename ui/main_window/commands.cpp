@@ -73,7 +73,8 @@ CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(pa
         auto* action = new QAction(translated(command.text), parent);
         action->setObjectName(QLatin1String(command.name));
         action->setCheckable(command.is_checkable);
-        action->setIconText(plain_text(command));
+        // The blank keeps the text of a tool button off its icon: style sheets have no word for that distance.
+        action->setIconText(QLatin1Char(' ') + plain_text(command));
         action->setStatusTip(help_text(command));
         const QList<QKeySequence> keys = shortcuts_of(command);
         action->setShortcuts(keys);

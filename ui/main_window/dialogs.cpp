@@ -93,7 +93,7 @@ void show_shortcuts(QWidget* parent) {
     layout->addWidget(scroll);
     layout->addWidget(buttons);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
-    dialog->resize(640, 560);
+    dialog->resize(760, 600);
     dialog->show();
 }
 

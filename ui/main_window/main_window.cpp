@@ -1,5 +1,7 @@
 #include "ui/main_window/main_window.h"
 
+#include <utility>
+
 #include <QAction>
 #include <QDockWidget>
 #include <QEvent>
@@ -114,13 +116,16 @@ void MainWindow::connect_document() {
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
     connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
         after_save_ = nullptr;
+        pending_format_.reset();
         dialogs_.show_error(this, tr("%1 failed").arg(title), message);
     });
     connect(&runner, &JobRunner::cancelled, this, [this](const QString& title) {
         after_save_ = nullptr;
+        pending_format_.reset();
         statusBar()->showMessage(tr("%1 was stopped; the mesh is as it was.").arg(title), 6000);
     });
     connect(&runner, &JobRunner::finished, this, [this] {
+        if (pending_format_) saved_format_ = std::exchange(pending_format_, std::nullopt);
         if (after_save_ && !document_.is_dirty()) std::exchange(after_save_, nullptr)();
     });
     connect(&jobs_, &MeshJobs::note, this, [this](const QString& text) { statusBar()->showMessage(text, 12000); });
@@ -147,8 +152,8 @@ void MainWindow::show_opened() {
     center_->setCurrentWidget(has_mesh ? view_page_ : static_cast<QWidget*>(start_page_));
     for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {
         // Without a mesh the panels have nothing to say; a panel that the user has closed stays closed.
-        if (has_mesh) dock->setVisible(!dock->property("closed_by_user").toBool());
-        else dock->hide();
+        dock->setVisible(has_mesh && !dock->property("closed_by_user").toBool());
+        dock->toggleViewAction()->setEnabled(has_mesh);
     }
     if (has_mesh && document_.state().mesh->topology().dimension() == 3)
         hint_->setText(tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?"));
@@ -157,6 +162,7 @@ void MainWindow::show_opened() {
     else
         hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
     statusBar()->clearMessage();
+    if (has_mesh) view_->setFocus();
     update_title();
     update_options();
 }

@@ -130,7 +130,7 @@ class MainWindow : public QMainWindow {
 
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;  ///< of the file that Save may overwrite; none = Save asks for a name
-    std::optional<MeshFormat> pending_format_;
+    std::optional<MeshFormat> pending_format_;  ///< of the file that is being saved
     QByteArray first_layout_;
     bool is_closing_ = false;
 };

@@ -146,6 +146,9 @@ QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt:
     dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
     addDockWidget(area, dock);
     panels_menu_->addAction(dock->toggleViewAction());
+    dock->setProperty("closed_by_user", QSettings().value(QStringLiteral("window/closed_") + name, false));
+    connect(dock->toggleViewAction(), &QAction::triggered, dock,
+            [dock](bool is_shown) { dock->setProperty("closed_by_user", !is_shown); });
     return dock;
 }
 
@@ -161,6 +164,7 @@ void MainWindow::build_docks() {
     tabs_->setObjectName(QStringLiteral("operations_tabs"));
     tabs_->setDocumentMode(true);
     tabs_->tabBar()->setExpanding(true);
+    tabs_->tabBar()->setDrawBase(false);
     tabs_->addTab(scrolling(deform_panel_), tr("Deform"));
     tabs_->addTab(scrolling(warp_panel_), tr("Warp"));
     tabs_->addTab(scrolling(untangle_panel_), tr("Untangle"));
@@ -170,17 +174,18 @@ void MainWindow::build_docks() {
     right->addWidget(worst_table_);
     right->setStretchFactor(0, 0);
     right->setStretchFactor(1, 1);
-    right->setSizes({272, 240});
+    right->setSizes({336, 320});
     right->setChildrenCollapsible(false);
 
     left_dock_ = add_dock(QStringLiteral("mesh_dock"), tr("Mesh"), Qt::LeftDockWidgetArea, mesh_panel_);
     right_dock_ = add_dock(QStringLiteral("operations_dock"), tr("Operations"), Qt::RightDockWidgetArea, right);
     bottom_dock_ = add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
+    setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     // The tabs and the headings say what these two are.
     right_dock_->setTitleBarWidget(new QWidget);
     bottom_dock_->setTitleBarWidget(new QWidget);
     left_dock_->setTitleBarWidget(new QWidget);
-    resizeDocks({left_dock_, right_dock_}, {208, 288}, Qt::Horizontal);
+    resizeDocks({left_dock_, right_dock_}, {240, 288}, Qt::Horizontal);
     resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
 }
 
@@ -217,14 +222,19 @@ void MainWindow::save_layout() const {
     QSettings settings;
     settings.setValue(QStringLiteral("window/geometry"), saveGeometry());
     settings.setValue(QStringLiteral("window/state"), saveState(layout_version));
+    for (const QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_})
+        settings.setValue(QStringLiteral("window/closed_") + dock->objectName(), dock->property("closed_by_user"));
     for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend})
         settings.setValue(QStringLiteral("view/") + actions_[id]->objectName(), actions_[id]->isChecked());
 }
 
 void MainWindow::reset_layout() {
     restoreState(first_layout_, layout_version);
-    for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) dock->setVisible(document_.has_mesh());
-    resizeDocks({left_dock_, right_dock_}, {208, 288}, Qt::Horizontal);
+    for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {
+        dock->setProperty("closed_by_user", false);
+        dock->setVisible(document_.has_mesh());
+    }
+    resizeDocks({left_dock_, right_dock_}, {240, 288}, Qt::Horizontal);
     resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
 }
 

@@ -14,7 +14,7 @@
 namespace curvewright {
 namespace {
 
-constexpr double left_margin = 36.0, right_margin = 8.0, top_margin = 6.0, bottom_margin = 18.0;
+constexpr double left_margin = 36.0, right_margin = 8.0, top_margin = 6.0, bottom_margin = 22.0;
 constexpr double alarm_gap = 8.0;
 
 QColor to_qcolor(const Color& color) { return QColor::fromRgbF(float(color[0]), float(color[1]), float(color[2])); }
@@ -147,12 +147,12 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
 
     painter.setPen(bars_.tangled.count() > 0 ? theme_.color(QStringLiteral("alarm")) : muted);
     const QRectF alarm = bar_area(-1);
-    painter.drawText(QRectF(alarm.center().x() - 24, area.bottom() + 2, 48, 14), Qt::AlignCenter, QStringLiteral("≤ 0"));
+    painter.drawText(QRectF(alarm.center().x() - 24, area.bottom() + 7, 48, 14), Qt::AlignCenter, QStringLiteral("≤ 0"));
     painter.setPen(muted);
     const double first = bar_area(0).left(), width = area.right() - first;
     for (const double value : {0.25, 0.5, 0.75, 1.0}) {
         const double x = first + value * width;
-        const QRectF box(std::min(x - 24, double(this->width()) - 48), area.bottom() + 2, 48, 14);
+        const QRectF box(std::min(x - 24, double(this->width()) - 48), area.bottom() + 7, 48, 14);
         painter.drawText(box, value == 1.0 ? Qt::AlignRight | Qt::AlignVCenter : Qt::AlignCenter,
                          QString::number(value, 'g', 3));
     }

@@ -28,7 +28,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     groups_->setObjectName(QStringLiteral("groups"));
     groups_->setColumnCount(2);
     groups_->setHeaderLabels({tr("Name"), tr("Nodes")});
-    groups_->headerItem()->setTextAlignment(1, Qt::AlignRight);
+    groups_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     groups_->setRootIsDecorated(false);
     groups_->setUniformRowHeights(true);
     groups_->header()->setStretchLastSection(false);
@@ -39,10 +39,12 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     history_ = new QUndoView(document.history());
     history_->setObjectName(QStringLiteral("history"));
     history_->setUniformItemSizes(true);
+    history_->setTextElideMode(Qt::ElideRight);
+    history_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     history_->setToolTip(tr("Click a step to go back to it"));
 
     auto* layout = new QVBoxLayout(this);
-    layout->setContentsMargins(12, 4, 12, 12);
+    layout->setContentsMargins(12, 12, 12, 12);
     layout->setSpacing(2);
     for (QLabel* label : {file_, elements_, nodes_}) layout->addWidget(label);
     layout->addSpacing(4);

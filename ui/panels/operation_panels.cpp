@@ -185,7 +185,8 @@ UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     const SignedAngleOptions defaults;
     method_ = new QComboBox;
     method_->setObjectName(QStringLiteral("method"));
-    method_->addItem(tr("Signed angles (2D, P2–P3)"));
+    method_->addItem(tr("Signed angles"));
+    method_->setToolTip(tr("For 2D meshes of triangles of order 2 and 3"));
     beta_ = new LogSpinBox;
     beta_->setObjectName(QStringLiteral("beta"));
     beta_->setDecimals(7);

@@ -37,6 +37,7 @@ QualityPanel::QualityPanel(MeshDocument& document, const Theme& theme, QWidget* 
     for (const Side& side : {before_, after_}) {
         auto* head = new QHBoxLayout;
         head->setSpacing(8);
+        head->addStrut(reference_->sizeHint().height());
         head->addWidget(side.title);
         if (side.histogram == before_.histogram) head->addWidget(reference_);
         head->addStretch();

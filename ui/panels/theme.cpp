@@ -125,7 +125,7 @@ QString Theme::style_sheet() const {
     QString sheet = QString::fromUtf8(read_resource(QStringLiteral("style.qss")));
     const struct {
         const char *icon, *line;
-    } images[] = {{"arrow", "text_muted"}, {"arrow_up", "text_muted"}, {"check", "accent_text"}};
+    } images[] = {{"arrow", "text_muted"}, {"arrow_up", "text_muted"}, {"check", "accent_text"}, {"help", "accent"}, {"alert", "warning"}};
     for (const auto& image : images) {
         const QString name = QLatin1String(image.icon);
         const QString path =

@@ -30,7 +30,9 @@ QIcon swatch(const ElementQuality& quality, const QColor& outline) {
         painter.setPen(Qt::white);
         painter.drawText(QRect(2, 2, 12, 12), Qt::AlignCenter, QStringLiteral("?"));
     }
-    return QIcon(pixmap);
+    QIcon icon(pixmap);
+    icon.addPixmap(pixmap, QIcon::Selected);  // untinted: the colour is what it shows
+    return icon;
 }
 
 QString describe(Validity validity) {
@@ -49,7 +51,7 @@ WorstTable::WorstTable(MeshDocument& document, const Theme& theme, QWidget* pare
     table_ = new QTreeWidget;
     table_->setObjectName(QStringLiteral("worst_elements"));
     table_->setHeaderLabels({tr("Element"), tr("Scaled J"), tr("Proof")});
-    table_->headerItem()->setTextAlignment(1, Qt::AlignRight);
+    table_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
     table_->header()->setStretchLastSection(true);

@@ -13,12 +13,10 @@ namespace curvewright {
 class SceneInteractorStyle : public vtkInteractorStyle {
   public:
     static SceneInteractorStyle* New();
-    vtkTypeMacro(SceneInteractorStyle, vtkInteractorStyle)
 
-        public :
-        /// depth_at: depth of what is drawn at a display position, if there is anything. camera null: does nothing any
-        /// more.
-        void connect(CameraControl* camera, std::function<std::optional<double>(double x, double y)> depth_at);
+    /// depth_at: depth of what is drawn at a display position, if there is anything. camera null: does nothing any
+    /// more.
+    void connect(CameraControl* camera, std::function<std::optional<double>(double x, double y)> depth_at);
 
     void OnLeftButtonDown() override;
     void OnLeftButtonUp() override;
@@ -43,6 +41,8 @@ class SceneInteractorStyle : public vtkInteractorStyle {
     CameraControl* camera_ = nullptr;
     std::function<std::optional<double>(double, double)> depth_at_;
     Drag drag_ = Drag::none;
+
+    vtkTypeMacro(SceneInteractorStyle, vtkInteractorStyle)
 };
 
 }  // namespace curvewright

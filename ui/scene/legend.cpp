@@ -5,7 +5,7 @@
 
 #include <vtkActor2D.h>
 #include <vtkCellArray.h>
-#include <vtkCellData.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper2D.h>
@@ -31,7 +31,7 @@ Color mix(const Color& a, const Color& b, double share_of_b) {
 Legend::Legend(vtkRenderer* renderer) : renderer_(renderer) {
     vtkNew<vtkPolyDataMapper2D> mapper;
     mapper->SetInputData(data_);
-    mapper->SetScalarModeToUseCellData();
+    mapper->SetScalarModeToUsePointData();
     actor_->SetMapper(mapper);
     actor_->PickableOff();
     actor_->GetPositionCoordinate()->SetCoordinateSystemToViewport();
@@ -61,8 +61,11 @@ void Legend::add_polygon(const std::vector<std::array<double, 2>>& corners, cons
     std::vector<vtkIdType> ids;
     for (const auto& corner : corners) ids.push_back(points_->InsertNextPoint(corner[0], corner[1], 0.0));
     cells_->InsertNextCell(static_cast<vtkIdType>(ids.size()), ids.data());
-    for (double channel : {color[0], color[1], color[2], opacity})
-        colors_->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0))));
+    // One colour per point (every polygon has its own): colours of cells need texture buffers, which not every driver
+    // has.
+    for (std::size_t i = 0; i < corners.size(); ++i)
+        for (double channel : {color[0], color[1], color[2], opacity})
+            colors_->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0))));
 }
 
 void Legend::add_box(const Box& box, const Color& color, double opacity) {
@@ -110,7 +113,7 @@ void Legend::finish() {
     data_->Initialize();
     data_->SetPoints(points_);
     data_->SetPolys(cells_);
-    data_->GetCellData()->SetScalars(colors_);
+    data_->GetPointData()->SetScalars(colors_);
     data_->Modified();
     actor_->SetVisibility(cells_->GetNumberOfCells() > 0);
 }

@@ -132,7 +132,6 @@ struct MeshScene::Parts {
         highlight.set_style({.color = accent_color, .width = 3.0, .cap = 1.0, .is_on_top = true});
         nodes.set_colors(options.edge_color, background, options.edge_color);
         nodes.set_visible(options.show_nodes);
-        marks.set_background(background);
         legend.set_colors(background, options.foreground);
         legend.set_visible(options.show_legend);
         axes.set_colors(background, options.foreground);
@@ -160,7 +159,7 @@ struct MeshScene::Parts {
         frame.place(boundary.actor(), tessellation->origin());
         nodes.set_nodes(*mesh, *tessellation, frame);
         if (quality)
-            marks.set_mesh(*mesh, *quality, visible, frame);
+            marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
         else
             marks.clear();
         draw_highlight();

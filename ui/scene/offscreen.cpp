@@ -39,9 +39,8 @@ struct Pixels {
 class EglRenderWindow : public vtkGenericOpenGLRenderWindow {
   public:
     static EglRenderWindow* New();
-    vtkTypeMacro(EglRenderWindow, vtkGenericOpenGLRenderWindow)
 
-        void OpenGLInitContext() override {
+    void OpenGLInitContext() override {
         if (Initialized) return;
         {
             const QuietOutput quiet;
@@ -52,6 +51,8 @@ class EglRenderWindow : public vtkGenericOpenGLRenderWindow {
         MaximumHardwareLineWidth = 1.0f;
         GetState()->Initialize(this);
     }
+
+    vtkTypeMacro(EglRenderWindow, vtkGenericOpenGLRenderWindow)
 };
 vtkStandardNewMacro(EglRenderWindow);
 

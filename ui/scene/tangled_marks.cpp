@@ -33,14 +33,11 @@ bool is_tangled(const ElementQuality& quality) {
 
 TangledMarks::TangledMarks(vtkRenderer* renderer) {
     for (vtkActor* actor : {undecided_halo_.actor(), undecided_.actor(), hatched_.actor(), halo_.actor(),
-                            outline_.actor(), ring_halo_.actor(), ring_.actor()})
+                            outline_.actor(), ring_halo_.actor(), ring_.actor(), inside_ring_.actor()})
         renderer->AddActor(actor);
     hatched_.actor()->PickableOff();
-    set_background(background_);
-}
-
-void TangledMarks::set_background(const Color& background) {
-    background_ = background;
+    // The halo is white on dark backgrounds as well: it has to part the alarm colour from the mesh, which is light.
+    constexpr Color white{1.0, 1.0, 1.0};
     const Color alarm = tangled_color();
     Color stripe{}, dark{};
     for (std::size_t c = 0; c < 3; ++c) {
@@ -48,23 +45,25 @@ void TangledMarks::set_background(const Color& background) {
         dark[c] = 0.75 * undecided_color()[c];
     }
     hatched_.set_hatch(stripe);
-    halo_.set_style(
-        {.color = background, .opacity = 0.9, .width = 5.2, .cap = 1.0, .depth_bias = 1.1e-3, .fades = true});
+    halo_.set_style({.color = white, .opacity = 0.9, .width = 5.2, .cap = 1.0, .depth_bias = 1.1e-3, .fades = true});
     outline_.set_style({.color = alarm, .width = 2.4, .cap = 1.0, .depth_bias = 2.0e-3, .fades = true});
-    undecided_halo_.set_style({.color = background, .opacity = 0.9, .width = 4.5, .cap = 1.0, .depth_bias = 0.6e-3});
+    undecided_halo_.set_style(
+        {.color = white, .opacity = 0.8, .width = 4.0, .cap = 1.0, .depth_bias = 0.6e-3, .fades = true});
     undecided_.set_style({.color = dark, .width = 2.4, .cap = 0.0, .dash = 6.0, .depth_bias = 0.8e-3});
-    ring_halo_.set_style({.color = background, .opacity = 0.85, .width = 4.0, .is_on_top = true, .is_in_pixels = true});
+    ring_halo_.set_style({.color = white, .opacity = 0.85, .width = 4.0, .is_on_top = true, .is_in_pixels = true});
+    inside_ring_.set_style({.color = alarm, .width = 1.8, .dash = 5.2, .is_on_top = true, .is_in_pixels = true});
     ring_.set_style({.color = alarm, .width = 1.8, .is_on_top = true, .is_in_pixels = true});
 }
 
 void TangledMarks::clear() {
     hatched_.clear();
-    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_}) stroke->clear();
+    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_, &inside_ring_})
+        stroke->clear();
     marks_.clear();
 }
 
 void TangledMarks::set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
-                            const WorldFrame& frame) {
+                            const Tessellation& drawn, const WorldFrame& frame) {
     clear();
     std::vector<Index> tangled;
     std::vector<bool> is_drawn_tangled(quality.elements.size(), false),
@@ -103,30 +102,34 @@ void TangledMarks::set_mesh(const CurvedMesh& mesh, const QualityReport& quality
     std::stable_sort(tangled.begin(), tangled.end(), [&quality](Index a, Index b) {
         return quality.elements[a].scaled_jacobian < quality.elements[b].scaled_jacobian;
     });
+    std::vector<bool> is_on_surface(quality.elements.size(), false);
+    for (Index element : drawn.triangle_elements()) is_on_surface[element] = true;
     for (Index element : tangled) {
         const Eigen::MatrixX3d x = mesh.element_coordinates(element);
         const Eigen::RowVector3d center = 0.5 * (x.colwise().minCoeff() + x.colwise().maxCoeff());
-        marks_.push_back({frame.to_world(center), (x.rowwise() - center).rowwise().norm().maxCoeff() / frame.size});
+        const double radius = (x.rowwise() - center).rowwise().norm().maxCoeff() / frame.size;
+        marks_.push_back({frame.to_world(center), radius, !is_on_surface[element]});
     }
 }
 
 void TangledMarks::update(const ViewMetrics& view) {
     draw_rings(view);
     hatched_.update(view);
-    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_})
+    for (StrokeActor* stroke : {&halo_, &outline_, &undecided_halo_, &undecided_, &ring_halo_, &ring_, &inside_ring_})
         stroke->update(view);
 }
 
 void TangledMarks::draw_rings(const ViewMetrics& view) {
     const double radius = ring_radius * view.pixel_ratio;
     std::vector<Eigen::Vector2d> centers;
-    Polylines rings;
+    Polylines rings, inside_rings, all_rings;
     for (const Mark& mark : marks_) {
         if (centers.size() == most_rings) break;
         const Eigen::Vector4d at = view.project(mark.center);
         if (at[3] <= 0.0) continue;
         const Eigen::Vector2d center = at.head<2>();
-        if (mark.radius * view.pixels_per_unit(at[3]) > ring_needed_below * view.pixel_ratio) continue;
+        if (!mark.is_inside && mark.radius * view.pixels_per_unit(at[3]) > ring_needed_below * view.pixel_ratio)
+            continue;
         if (center[0] < -radius || center[1] < -radius || center[0] > view.size[0] + radius ||
             center[1] > view.size[1] + radius)
             continue;
@@ -142,10 +145,12 @@ void TangledMarks::draw_rings(const ViewMetrics& view) {
             const double angle = 2.0 * std::numbers::pi * (i % pieces) / pieces;
             line.push_back({center[0] + radius * std::cos(angle), center[1] + radius * std::sin(angle), 0.0});
         }
-        rings.add(line);
+        (mark.is_inside ? inside_rings : rings).add(line);
+        all_rings.add(line);
     }
-    ring_halo_.set_lines(rings, 1.0);
+    ring_halo_.set_lines(all_rings, 1.0);
     ring_.set_lines(rings, 1.0);
+    inside_ring_.set_lines(inside_rings, 1.0);
 }
 
 }  // namespace curvewright

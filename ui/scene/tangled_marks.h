@@ -17,11 +17,11 @@ class TangledMarks {
   public:
     explicit TangledMarks(vtkRenderer* renderer);
 
-    /// visible: one flag per element; empty = all.
+    /// visible: one flag per element; empty = all. drawn: the surface of the visible elements. A tangled element that
+    /// has no part in it lies inside the mesh: its ring is dotted and always there.
     void set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
-                  const WorldFrame& frame);
+                  const Tessellation& drawn, const WorldFrame& frame);
     void clear();
-    void set_background(const Color& background);
     /// Before every frame.
     void update(const ViewMetrics& view);
 
@@ -29,13 +29,13 @@ class TangledMarks {
     struct Mark {
         Eigen::RowVector3d center;  ///< world
         double radius = 0.0;        ///< world
+        bool is_inside = false;     ///< hidden by other elements from every side
     };
     void draw_rings(const ViewMetrics& view);
 
     SurfaceActor hatched_;
-    StrokeActor halo_, outline_, undecided_halo_, undecided_, ring_halo_, ring_;
+    StrokeActor halo_, outline_, undecided_halo_, undecided_, ring_halo_, ring_, inside_ring_;
     std::vector<Mark> marks_;  ///< of tangled elements, worst first
-    Color background_{1.0, 1.0, 1.0};
 };
 
 }  // namespace curvewright

@@ -6,7 +6,7 @@
 
 namespace curvewright {
 
-inline const std::vector<Shape> all_shapes = {Shape::vertex,        Shape::line,       Shape::triangle,
+inline const std::vector<Shape> all_shapes = {Shape::vertex,        Shape::line,        Shape::triangle,
                                               Shape::quadrilateral, Shape::tetrahedron, Shape::hexahedron,
                                               Shape::prism,         Shape::pyramid};
 

@@ -26,14 +26,29 @@ std::set<LatticePoint> lattice_of(ElementType type) {
             for (int i = 0; i <= p; ++i) {
                 bool is_inside = true;
                 switch (type.shape) {
-                    case Shape::vertex: is_inside = i + j + k == 0; break;
-                    case Shape::line: is_inside = j + k == 0; break;
-                    case Shape::triangle: is_inside = k == 0 && i + j <= p; break;
-                    case Shape::quadrilateral: is_inside = k == 0; break;
-                    case Shape::tetrahedron: is_inside = i + j + k <= p; break;
-                    case Shape::hexahedron: break;
-                    case Shape::prism: is_inside = i + j <= p; break;
-                    case Shape::pyramid: is_inside = i <= p - k && j <= p - k; break;
+                    case Shape::vertex:
+                        is_inside = i + j + k == 0;
+                        break;
+                    case Shape::line:
+                        is_inside = j + k == 0;
+                        break;
+                    case Shape::triangle:
+                        is_inside = k == 0 && i + j <= p;
+                        break;
+                    case Shape::quadrilateral:
+                        is_inside = k == 0;
+                        break;
+                    case Shape::tetrahedron:
+                        is_inside = i + j + k <= p;
+                        break;
+                    case Shape::hexahedron:
+                        break;
+                    case Shape::prism:
+                        is_inside = i + j <= p;
+                        break;
+                    case Shape::pyramid:
+                        is_inside = i <= p - k && j <= p - k;
+                        break;
                 }
                 if (is_inside) points.insert({i, j, k});
             }
@@ -45,7 +60,8 @@ int position_in_vtk(ElementType type, LatticePoint point) {
     const int p = type.order;
     const auto [i, j, k] = point;
     switch (type.shape) {
-        case Shape::line: return i == 0 ? 0 : i == p ? 1 : i + 1;
+        case Shape::line:
+            return i == 0 ? 0 : i == p ? 1 : i + 1;
         case Shape::triangle: {
             const vtkIdType b[3] = {i, j, p - i - j};
             return static_cast<int>(vtkHigherOrderTriangle::Index(b, p));
@@ -66,7 +82,8 @@ int position_in_vtk(ElementType type, LatticePoint point) {
             const int order[4] = {p, p, p, p};
             return vtkHigherOrderWedge::PointIndexFromIJK(i, j, k, order);
         }
-        default: return 0;
+        default:
+            return 0;
     }
 }
 
@@ -86,8 +103,7 @@ TEST(NodeOrdering, is_that_of_vtk) {
         if (type.shape == Shape::pyramid) continue;  // VTK 9.1 has no Lagrange pyramid
         const auto nodes = vtk_node_order(type);
         int wrong = 0;
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-            wrong += position_in_vtk(type, nodes[i]) != static_cast<int>(i);
+        for (std::size_t i = 0; i < nodes.size(); ++i) wrong += position_in_vtk(type, nodes[i]) != static_cast<int>(i);
         EXPECT_EQ(wrong, 0) << name(type);
     }
 }
@@ -118,8 +134,7 @@ TEST(NodeOrdering, permutation_leads_from_gmsh_to_ours) {
         ASSERT_EQ(permutation.size(), ours.size());
         for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_EQ(ours[i], gmsh[permutation[i]]) << name(type);
     }
-    const std::vector<int> p3_tetrahedron = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9,
-                                             11, 10, 15, 14, 13, 12, 17, 19, 18, 16};
+    const std::vector<int> p3_tetrahedron = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 11, 10, 15, 14, 13, 12, 17, 19, 18, 16};
     EXPECT_EQ(gmsh_permutation({Shape::tetrahedron, 3}), p3_tetrahedron);
 }
 

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <set>
 
-#include <Eigen/Dense>
 #include <gtest/gtest.h>
+#include <Eigen/Dense>
 
 #include "tests/unit/basis/element_types.h"
 
 namespace curvewright {
 namespace {
 
-Eigen::Vector3d as_vector(LatticePoint point) { return Eigen::Vector3i(point.data()).cast<double>(); }
+Eigen::Vector3d as_vector(LatticePoint point) {
+    return Eigen::Vector3i(point.data()).cast<double>();
+}
 
 /// Number of edges, faces and facets by shape.
 struct Counts {
@@ -20,10 +22,10 @@ struct Counts {
 };
 
 TEST(ReferenceElement, has_all_edges_faces_and_facets) {
-    for (const Counts& expected : {Counts{Shape::line, 1, 0, 2}, Counts{Shape::triangle, 3, 1, 3},
-                                   Counts{Shape::quadrilateral, 4, 1, 4}, Counts{Shape::tetrahedron, 6, 4, 4},
-                                   Counts{Shape::hexahedron, 12, 6, 6}, Counts{Shape::prism, 9, 5, 5},
-                                   Counts{Shape::pyramid, 8, 5, 5}})
+    for (const Counts& expected :
+         {Counts{Shape::line, 1, 0, 2}, Counts{Shape::triangle, 3, 1, 3}, Counts{Shape::quadrilateral, 4, 1, 4},
+          Counts{Shape::tetrahedron, 6, 4, 4}, Counts{Shape::hexahedron, 12, 6, 6}, Counts{Shape::prism, 9, 5, 5},
+          Counts{Shape::pyramid, 8, 5, 5}})
         for (int order = 1; order <= max_order; ++order) {
             const auto& element = reference_element({expected.shape, order});
             EXPECT_EQ(element.edges.size(), expected.edges) << name(element.type);
@@ -91,8 +93,7 @@ TEST(ReferenceElement, every_node_is_interior_or_on_a_facet) {
 
 TEST(ReferenceElement, finds_nodes_by_lattice_point) {
     const auto& element = reference_element({Shape::tetrahedron, 4});
-    for (int node = 0; node < element.node_count(); ++node)
-        EXPECT_EQ(element.find_node(element.lattice[node]), node);
+    for (int node = 0; node < element.node_count(); ++node) EXPECT_EQ(element.find_node(element.lattice[node]), node);
     EXPECT_EQ(element.find_node({4, 1, 0}), -1);
 }
 

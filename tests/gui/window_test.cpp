@@ -1,0 +1,254 @@
+/// What a user does with an open mesh: by mouse and keyboard, on the real window.
+
+#include <QAction>
+#include <QComboBox>
+#include <QLabel>
+#include <QMenuBar>
+#include <QPushButton>
+#include <QSignalSpy>
+#include <QTabWidget>
+#include <QToolButton>
+#include <QTreeWidget>
+#include <QUndoView>
+#include <set>
+
+#include "tests/gui/gui_test_support.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/histogram_widget.h"
+#include "ui/panels/start_page.h"
+
+using namespace curvewright;
+using namespace curvewright::testing;
+
+class WindowTest : public QObject {
+    Q_OBJECT
+
+  private slots:
+    void commands_are_declared_once() {
+        WindowUnderTest test;
+        std::set<std::string> names, keys;
+        for (const Command& command : commands()) {
+            QVERIFY2(names.insert(command.name).second, command.name);
+            const QAction* action = test.window->action(command.id);
+            QCOMPARE(action->objectName(), QLatin1String(command.name));
+            QVERIFY2(!action->toolTip().isEmpty(), command.name);
+            QCOMPARE(action->icon().isNull(), *command.icon == 0);
+            for (const QKeySequence& key : action->shortcuts()) {
+                QVERIFY2(!key.isEmpty(), command.name);
+                QVERIFY2(keys.insert(key.toString().toStdString()).second, qPrintable(key.toString()));
+            }
+        }
+    }
+
+    void starts_with_the_start_page() {
+        WindowUnderTest test;
+        QVERIFY(test.window->findChild<StartPage*>()->isVisible());
+        QVERIFY(!test.find<QToolButton>("tool_warp")->isEnabled());
+        QVERIFY(!test.find<QPushButton>("untangle_button")->isVisible());
+        QVERIFY(!test.window->isWindowModified());
+    }
+
+    void opening_shows_what_it_is() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")));
+        QCOMPARE(test.text("file_name"), QStringLiteral("square.msh"));
+        QCOMPARE(test.text("mesh_elements"), QStringLiteral("P3 · 32 triangles"));
+        QCOMPARE(test.text("mesh_validity"), QStringLiteral("✓ all proved valid"));
+        QCOMPARE(test.text("verdict"), QStringLiteral("✓ all proved valid"));
+        QVERIFY(test.text("after_figures").startsWith(QStringLiteral("min 1.00   mean 1.00   max 1.00")));
+        QVERIFY(test.window->windowTitle().startsWith(QStringLiteral("square.msh")));
+        QCOMPARE(test.find<QTreeWidget>("groups")->topLevelItemCount(), 5);
+        QVERIFY(test.window->view().isVisible());
+        QVERIFY(test.errors.isEmpty());
+    }
+
+    void operations_say_why_they_cannot_run() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        auto* tabs = test.find<QTabWidget>("operations_tabs");
+        tabs->setCurrentIndex(1);
+        QVERIFY(!test.find<QPushButton>("warp_button")->isEnabled());
+        QCOMPARE(test.text("warp_button_reason"), QStringLiteral("Load a deformation first."));
+        tabs->setCurrentIndex(2);
+        QVERIFY(!test.find<QPushButton>("untangle_button")->isEnabled());
+        QVERIFY(test.text("untangle_button_reason").contains(QStringLiteral("P2 tetrahedron")));
+    }
+
+    void deform_untangle_undo_redo() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")), test.inputs.path(QStringLiteral("bump.json")));
+        MeshDocument& document = test.window->document();
+        const Coordinates opened = document.state().mesh->coordinates();
+        auto* tabs = test.find<QTabWidget>("operations_tabs");
+
+        tabs->setCurrentIndex(0);
+        test.click("deform_button");
+        QVERIFY(test.wait_for_job());
+        const Coordinates deformed = document.state().mesh->coordinates();
+        const QualitySummary tangled = document.state().quality->summary;
+        QVERIFY(tangled.invalid > 0);
+        QVERIFY(test.text("verdict").contains(QStringLiteral("tangled (scaled Jacobian ≤ 0)")));
+        QCOMPARE(test.find<HistogramWidget>("after_histogram")->bars().tangled.count(), tangled.invalid);
+        QCOMPARE(test.find<HistogramWidget>("before_histogram")->bars().tangled.count(), 0);
+        QCOMPARE(test.find<HistogramWidget>("after_histogram")->limit(),
+                 test.find<HistogramWidget>("before_histogram")->limit());
+        QVERIFY(test.window->isWindowModified());
+        QCOMPARE(test.find<QTreeWidget>("worst_elements")->topLevelItem(0)->text(2), QStringLiteral("tangled"));
+
+        tabs->setCurrentIndex(2);
+        test.click("untangle_button");
+        QVERIFY(test.wait_for_job());
+        const Coordinates untangled = document.state().mesh->coordinates();
+        QCOMPARE(document.state().quality->summary.invalid, 0);
+        QCOMPARE(test.text("verdict"), QStringLiteral("✓ all proved valid"));
+        QVERIFY(test.text("before_validity").contains(QStringLiteral("tangled")));
+        QCOMPARE(test.text("after_validity"), QStringLiteral("✓ all proved valid"));
+        for (const Index node : document.state().mesh->topology().boundary_nodes())
+            QCOMPARE(untangled.row(node), deformed.row(node));
+
+        test.click("tool_undo");
+        QCOMPARE(document.state().mesh->coordinates(), deformed);
+        QCOMPARE(test.find<HistogramWidget>("after_histogram")->bars().tangled.count(), tangled.invalid);
+        test.click("tool_undo");
+        QCOMPARE(document.state().mesh->coordinates(), opened);
+        QVERIFY(!test.find<QToolButton>("tool_undo")->isEnabled());
+        QVERIFY(!test.window->isWindowModified());
+        test.click("tool_redo");
+        QCOMPARE(document.state().mesh->coordinates(), deformed);
+        test.click("tool_redo");
+        QCOMPARE(document.state().mesh->coordinates(), untangled);
+
+        // The list of the history jumps.
+        auto* history = test.find<QUndoView>("history");
+        const QRect first = history->visualRect(history->model()->index(0, 0));
+        QTest::mouseClick(history->viewport(), Qt::LeftButton, {}, first.center());
+        QCOMPARE(document.state().mesh->coordinates(), opened);
+    }
+
+    void warp_follows_the_boundary() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")), test.inputs.path(QStringLiteral("bump.json")));
+        test.window->show_tab(QStringLiteral("warp"));
+        auto* weights = test.find<QComboBox>("weights");
+        MeshDocument& document = test.window->document();
+        for (const int choice : {0, 1}) {
+            weights->setCurrentIndex(choice);
+            test.click("warp_button");
+            QVERIFY(test.wait_for_job());
+            QCOMPARE(document.history()->index(), 1);
+            QCOMPARE(document.history()->undoText(),
+                     choice == 0 ? QStringLiteral("Warp, convex weights") : QStringLiteral("Warp, affine weights"));
+            QCOMPARE(document.state().quality->summary.invalid, 0);
+            QVERIFY(document.is_deformation_applied());
+            QVERIFY(document.state().mesh->coordinates() != document.original().mesh->coordinates());
+            test.click("tool_undo");
+            QCOMPARE(document.state().mesh->coordinates(), document.original().mesh->coordinates());
+            QVERIFY(!document.is_deformation_applied());
+        }
+    }
+
+    void stopping_leaves_the_mesh_as_it_was() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")), test.inputs.path(QStringLiteral("bump.json")));
+        MeshDocument& document = test.window->document();
+        const auto mesh = document.state().mesh;
+        QSignalSpy cancelled(&test.window->jobs().runner(), &JobRunner::cancelled);
+
+        // A job that ends only when it is asked to stop, then the result of a real one asked to stop at once.
+        QVERIFY(test.window->jobs().runner().start(QStringLiteral("Waiting"), [](const TaskContext& context) {
+            for (double fraction = 0.0;; fraction = fraction < 1.0 ? fraction + 0.01 : 0.0) {
+                context.report("waiting", fraction);
+                std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            }
+            return JobRunner::Finish([] {});
+        }));
+        QVERIFY(test.find<QToolButton>("tool_stop")->isEnabled());
+        QVERIFY(!test.find<QToolButton>("tool_warp")->isEnabled());
+        auto* cancel = test.find<QPushButton>("job_cancel");
+        QTRY_VERIFY(cancel->isVisible());
+        QTRY_VERIFY(test.text("job_text").contains(QStringLiteral("waiting")));
+        QTest::mouseClick(cancel, Qt::LeftButton);
+        QTRY_COMPARE(cancelled.count(), 1);
+        QVERIFY(test.find<QToolButton>("tool_warp")->isEnabled());
+
+        QTest::keyClick(test.window.get(), Qt::Key_R, Qt::ControlModifier);
+        QVERIFY(test.window->jobs().runner().is_running());
+        QTest::keyClick(test.window.get(), Qt::Key_Escape);
+        QTRY_COMPARE(cancelled.count(), 2);
+        QCOMPARE(document.state().mesh, mesh);
+        QCOMPARE(document.history()->count(), 0);
+    }
+
+    void clockwise_meshes_can_be_flipped() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("clockwise.msh")));
+        QVERIFY(test.find<QLabel>("banner_text")->isVisible());
+        QVERIFY(test.text("banner_text").startsWith(QStringLiteral("All elements are numbered clockwise")));
+        QCOMPARE(test.text("verdict"), QStringLiteral("✓ all proved valid"));
+        test.click("banner_action");
+        QVERIFY(test.wait_for_job());
+        QVERIFY(!test.find<QLabel>("banner_text")->isVisible());
+        QVERIFY(test.window->document().state().quality->orientation == Orientation::positive);
+        test.click("tool_undo");
+        QVERIFY(test.window->document().state().quality->orientation == Orientation::negative);
+    }
+
+    void view_options_reach_the_scene() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")));
+        const MeshView& view = test.window->view();
+        QVERIFY(view.options().show_edges && !view.options().show_nodes);
+        test.click("tool_nodes");
+        QVERIFY(view.options().show_nodes);
+        QTest::keyClick(test.window.get(), Qt::Key_E);
+        QVERIFY(!view.options().show_edges);
+        QVERIFY(!test.find<QToolButton>("tool_clip")->isEnabled());  // nothing to cut in 2D
+        QTest::keyClick(test.window.get(), Qt::Key_E);
+
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        test.click("tool_clip");
+        QVERIFY(view.options().clip.has_value());
+        QVERIFY(test.find<QWidget>("clip_bar")->isVisible());
+        test.click("clip_z");
+        test.click("clip_flip");
+        QCOMPARE(view.options().clip->normal[2], -1.0);
+    }
+
+    void clicking_an_element_tells_about_it() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")));
+        MeshView& view = test.window->view();
+        QSignalSpy clicks(&view, &MeshView::element_clicked);
+        QTest::qWait(50);  // a frame, so that the camera has been fitted to the window
+        QTest::mouseClick(&view, Qt::LeftButton, {}, view.rect().center());
+        QCOMPARE(clicks.count(), 1);
+        QVERIFY(clicks.front().at(0).value<std::optional<Index>>().has_value());
+        QTest::mouseClick(&view, Qt::LeftButton, {}, QPoint(3, view.height() - 3));
+        QVERIFY(!clicks.back().at(0).value<std::optional<Index>>().has_value());
+    }
+
+    void the_view_draws_the_mesh() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")));
+        test.window->action(CommandId::theme_light)->trigger();
+        const QImage once = test.window->view().picture(1), twice = test.window->view().picture(2);
+        QVERIFY(!once.isNull());
+        QCOMPARE(twice.size(), once.size() * 2);
+        // The middle shows the mesh, the corner the ground.
+        QCOMPARE(once.pixelColor(2, 2), theme().color(QStringLiteral("view")));
+        int colored = 0;
+        for (int x = 0; x < once.width(); ++x) colored += once.pixelColor(x, once.height() / 2) != once.pixelColor(2, 2);
+        QVERIFY(colored > once.height() / 2);
+        const QImage grabbed = test.window->view().grabFramebuffer();
+        QCOMPARE(grabbed.pixelColor(2, 2), theme().color(QStringLiteral("view")));
+        test.window->action(CommandId::theme_dark)->trigger();
+        QTest::qWait(50);
+        QCOMPARE(test.window->view().grabFramebuffer().pixelColor(2, 2), theme().color(QStringLiteral("view")));
+        QVERIFY(theme().color(QStringLiteral("view")).lightness() < 64);
+        test.window->action(CommandId::theme_light)->trigger();
+    }
+};
+
+QObject* make_test() { return new WindowTest; }
+
+#include "window_test.moc"

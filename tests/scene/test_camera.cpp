@@ -1,0 +1,316 @@
+#include <array>
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkCommand.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkNew.h>
+#include <vtkRenderWindowInteractor.h>
+#include <vtkRenderer.h>
+
+#include "core/base/error.h"
+#include "tests/scene/scene_meshes.h"
+#include "ui/scene/mesh_scene.h"
+#include "ui/scene/view_metrics.h"
+
+namespace curvewright {
+namespace {
+
+constexpr int width = 600, height = 400;
+
+/// A scene in a window that is never drawn: the camera needs its size only.
+struct Window {
+    MeshScene scene;
+    CurvedMesh mesh;
+    QualityReport report;
+    WorldFrame frame;
+    vtkNew<vtkGenericOpenGLRenderWindow> window;
+    vtkNew<vtkRenderWindowInteractor> interactor;
+
+    explicit Window(const CurvedMesh& shown) : mesh(shown), report(make_report(shown, {})) {
+        window->SetReadyForRendering(false);
+        window->SetSize(width, height);
+        window->AddRenderer(scene.renderer());
+        interactor->SetRenderWindow(window);
+        interactor->EnableRenderOff();
+        scene.attach_interactor(interactor);
+        scene.set_mesh(&mesh, &report);
+        const auto box = bounding_box(mesh);
+        frame = {0.5 * (box.row(0) + box.row(1)), (box.row(1) - box.row(0)).norm()};
+        frame_start();
+    }
+    ~Window() { window->RemoveRenderer(scene.renderer()); }
+
+    /// What a renderer does first in every frame.
+    void frame_start() { scene.renderer()->InvokeEvent(vtkCommand::StartEvent); }
+
+    std::array<double, 2> display(const Eigen::RowVector3d& point) {
+        const Eigen::RowVector3d world = frame.to_world(point);
+        scene.renderer()->SetWorldPoint(world[0], world[1], world[2], 1.0);
+        scene.renderer()->WorldToDisplay();
+        return {scene.renderer()->GetDisplayPoint()[0], scene.renderer()->GetDisplayPoint()[1]};
+    }
+    void at(double x, double y, bool shift = false) {
+        interactor->SetEventInformation(static_cast<int>(std::lround(x)), static_cast<int>(std::lround(y)), 0, shift);
+    }
+    void drag(double from_x, double from_y, double to_x, double to_y, bool shift = false) {
+        at(from_x, from_y, shift);
+        interactor->InvokeEvent(vtkCommand::LeftButtonPressEvent);
+        at(to_x, to_y, shift);
+        interactor->InvokeEvent(vtkCommand::MouseMoveEvent);
+        interactor->InvokeEvent(vtkCommand::LeftButtonReleaseEvent);
+        frame_start();
+    }
+    std::array<double, 10> camera() {
+        vtkCamera* its = scene.renderer()->GetActiveCamera();
+        std::array<double, 10> values{};
+        for (int d = 0; d < 3; ++d) {
+            values[d] = its->GetPosition()[d];
+            values[3 + d] = its->GetFocalPoint()[d];
+            values[6 + d] = its->GetViewUp()[d];
+        }
+        values[9] = its->GetParallelScale();
+        return values;
+    }
+};
+
+TEST(Camera, TheWholeMeshIsInView) {
+    for (const CurvedMesh& mesh : {make_ring(), make_ball(), make_ring(1e-6), make_ring(1e6)}) {
+        Window its(mesh);
+        double left = width, right = 0.0, bottom = height, top = 0.0;
+        for (Index node = 0; node < mesh.topology().node_count(); ++node) {
+            const auto [x, y] = its.display(mesh.coordinates().row(node));
+            left = std::min(left, x);
+            right = std::max(right, x);
+            bottom = std::min(bottom, y);
+            top = std::max(top, y);
+        }
+        EXPECT_GT(left, 5.0);
+        EXPECT_GT(bottom, 5.0);
+        EXPECT_LT(top, height - 5.0);
+        EXPECT_LT(right, width - 100.0);  // the legend's strip stays free
+        EXPECT_GT(top - bottom, 0.8 * height);
+        const double near = its.scene.renderer()->GetActiveCamera()->GetClippingRange()[0];
+        EXPECT_GT(near, 0.0);
+    }
+}
+
+TEST(Camera, StaysFittedWhenTheWindowGrows) {
+    Window its(make_ring());
+    its.window->SetSize(1200, 900);
+    its.frame_start();
+    const auto [x0, y0] = its.display({0.0, 2.0, 0.0});
+    EXPECT_GT(y0, 0.9 * 900.0);
+    EXPECT_LT(y0, 900.0);
+    // Once somebody has moved the camera, it is theirs.
+    its.drag(100, 100, 160, 100);
+    const auto before = its.camera();
+    its.window->SetSize(800, 700);
+    its.frame_start();
+    EXPECT_EQ(its.camera(), before);
+}
+
+TEST(Camera, KeepsItsViewForOtherPositionsOnly) {
+    Window its(make_ring());
+    its.drag(100, 100, 160, 130);
+    const auto before = its.camera();
+    Coordinates x = its.mesh.coordinates();
+    x *= 1.1;
+    const CurvedMesh moved = its.mesh.with_coordinates(x);
+    its.scene.set_mesh(&moved, &its.report);
+    its.frame_start();
+    EXPECT_EQ(its.camera(), before);
+    const CurvedMesh other = make_ball();
+    its.scene.set_mesh(&other, nullptr);
+    its.frame_start();
+    EXPECT_NE(its.camera(), before);
+}
+
+TEST(Camera, LooksAlongTheAxes) {
+    Window its(make_ball());
+    const std::array<std::pair<ViewDirection, std::array<double, 3>>, 6> cases{{
+        {ViewDirection::plus_x, {-1, 0, 0}},
+        {ViewDirection::minus_x, {1, 0, 0}},
+        {ViewDirection::plus_y, {0, -1, 0}},
+        {ViewDirection::minus_y, {0, 1, 0}},
+        {ViewDirection::plus_z, {0, 0, -1}},
+        {ViewDirection::minus_z, {0, 0, 1}},
+    }};
+    for (const auto& [direction, expected] : cases) {
+        its.scene.look(direction);
+        for (int d = 0; d < 3; ++d)
+            EXPECT_NEAR(its.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[d], expected[d], 1e-9);
+    }
+    its.scene.look(ViewDirection::fit);
+    EXPECT_NEAR(its.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[2], 1.0, 1e-9);
+    // Flat meshes are never turned.
+    Window flat(make_ring());
+    flat.scene.look(ViewDirection::plus_x);
+    EXPECT_NEAR(flat.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[2], -1.0, 1e-9);
+    EXPECT_TRUE(flat.scene.renderer()->GetActiveCamera()->GetParallelProjection());
+}
+
+TEST(Picking, FindsTheElementUnderThePointer) {
+    Window its(make_ring());
+    for (Index element = 0; element < its.mesh.topology().element_count(); ++element) {
+        if (element == tangled_ring_element || element == tangled_ring_element + 1)
+            continue;  // it covers its neighbour
+        Eigen::RowVector3d inside = its.mesh.coordinates().row(its.mesh.topology().element_nodes(element)[9]);
+        const auto [x, y] = its.display(inside);
+        const auto picked = its.scene.pick_element(x, y);
+        ASSERT_TRUE(picked.has_value()) << element;
+        if (*picked != tangled_ring_element) {
+            EXPECT_EQ(*picked, element);
+        }
+    }
+    const auto [x, y] = its.display({0.0, 0.0, 0.0});
+    EXPECT_FALSE(its.scene.pick_element(x, y).has_value());
+    EXPECT_FALSE(its.scene.pick_element(width - 1.0, 1.0).has_value());
+}
+
+TEST(Picking, TakesTheNearestElementOfASolid) {
+    Window its(make_ball());
+    its.scene.look(ViewDirection::plus_z);
+    its.frame_start();
+    const auto [x, y] = its.display({0.03, 0.02, 1.0});
+    const auto picked = its.scene.pick_element(x, y);
+    ASSERT_TRUE(picked.has_value());
+    EXPECT_GT(its.mesh.element_center(*picked)[2], 0.5);
+    its.scene.look(ViewDirection::minus_z);
+    its.frame_start();
+    const auto behind = its.scene.pick_element(x, y);
+    ASSERT_TRUE(behind.has_value());
+    EXPECT_LT(its.mesh.element_center(*behind)[2], -0.5);
+}
+
+TEST(Picking, DoesNotSeeHiddenElements) {
+    Window its(make_ball());
+    SceneOptions options;
+    options.clip = ClipPlane{{0.0, 0.0, 1.0}, 0.5};
+    its.scene.set_options(options);
+    its.scene.look(ViewDirection::plus_z);
+    its.frame_start();
+    const auto [x, y] = its.display({0.1, 0.05, 0.0});
+    const auto picked = its.scene.pick_element(x, y);
+    ASSERT_TRUE(picked.has_value());
+    EXPECT_LE(its.mesh.element_center(*picked)[2], 0.0);
+    options.clip->position = 0.0;
+    its.scene.set_options(options);
+    its.frame_start();
+    EXPECT_FALSE(its.scene.pick_element(x, y).has_value());
+}
+
+TEST(Picking, FocusBringsAnElementToTheMiddle) {
+    for (const CurvedMesh& mesh : {make_ring(), make_ball()}) {
+        Window its(mesh);
+        const Index element = 30;
+        its.scene.focus_element(element);
+        its.frame_start();
+        double bottom = height, top = 0.0;
+        for (const Eigen::MatrixX3d x = mesh.element_coordinates(element); const auto& row : x.rowwise()) {
+            const auto [sx, sy] = its.display(row);
+            bottom = std::min(bottom, sy);
+            top = std::max(top, sy);
+        }
+        EXPECT_NEAR(0.5 * (bottom + top), 0.5 * height, 0.06 * height);
+        EXPECT_GT(top - bottom, 0.08 * height);
+        EXPECT_LT(top - bottom, 0.32 * height);
+    }
+}
+
+TEST(Mouse, DragPansAFlatMesh) {
+    Window its(make_ring());
+    const auto before = its.display({1.5, 0.0, 0.0});
+    its.drag(200, 150, 260, 110);
+    const auto after = its.display({1.5, 0.0, 0.0});
+    EXPECT_NEAR(after[0] - before[0], 60.0, 0.01);
+    EXPECT_NEAR(after[1] - before[1], -40.0, 0.01);
+}
+
+TEST(Mouse, WheelKeepsThePointUnderThePointer) {
+    for (const CurvedMesh& mesh : {make_ring(), make_ball()}) {
+        Window its(mesh);
+        const Eigen::RowVector3d center = bounding_box(mesh).colwise().mean();
+        const auto middle = its.display(center);
+        for (const auto event : {vtkCommand::MouseWheelForwardEvent, vtkCommand::MouseWheelBackwardEvent}) {
+            its.at(middle[0], middle[1]);
+            const double scale_before = its.camera()[9];
+            const auto camera_before = its.camera();
+            its.interactor->InvokeEvent(event);
+            its.frame_start();
+            const auto after = its.display(center);
+            // The pointer stands on whole pixels.
+            EXPECT_NEAR(after[0], middle[0], 1.0);
+            EXPECT_NEAR(after[1], middle[1], 1.0);
+            EXPECT_NE(its.camera(), camera_before);
+            if (mesh.topology().dimension() == 2) {
+                EXPECT_NE(its.camera()[9], scale_before);
+            }
+        }
+    }
+}
+
+TEST(Mouse, DragTurnsASolidAndShiftPansIt) {
+    Window its(make_ball());
+    const auto before = its.camera();
+    its.drag(200, 150, 260, 150);
+    const auto turned = its.camera();
+    double moved = 0.0, focal_moved = 0.0;
+    for (int d = 0; d < 3; ++d) {
+        moved += std::abs(turned[d] - before[d]);
+        focal_moved += std::abs(turned[3 + d] - before[3 + d]);
+    }
+    EXPECT_GT(moved, 0.1);
+    EXPECT_LT(focal_moved, 1e-9);
+    const std::array<double, 2> at = its.display({0.0, 0.0, 0.0});
+    its.drag(200, 150, 230, 170, true);
+    EXPECT_NEAR(its.display({0.0, 0.0, 0.0})[0] - at[0], 30.0, 0.5);
+    EXPECT_NEAR(its.display({0.0, 0.0, 0.0})[1] - at[1], 20.0, 0.5);
+}
+
+TEST(Mouse, KeysOfVtkDoNothing) {
+    Window its(make_ball());
+    bool has_exited = false;
+    vtkNew<vtkCallbackCommand> observer;
+    observer->SetClientData(&has_exited);
+    observer->SetCallback([](vtkObject*, unsigned long, void* flag, void*) { *static_cast<bool*>(flag) = true; });
+    its.interactor->AddObserver(vtkCommand::ExitEvent, observer);
+    const auto before = its.camera();
+    for (char key : {'q', 'e', 'w', 's', 'p', 'f', 'r', '3'}) {
+        its.interactor->SetKeyEventInformation(0, 0, key, 1, nullptr);
+        for (const auto event : {vtkCommand::KeyPressEvent, vtkCommand::CharEvent, vtkCommand::KeyReleaseEvent})
+            its.interactor->InvokeEvent(event);
+    }
+    EXPECT_FALSE(has_exited);
+    EXPECT_EQ(its.camera(), before);
+}
+
+TEST(Scene, CopiesAView) {
+    Window its(make_ring(1e3));
+    its.drag(200, 150, 260, 110);
+    MeshScene other;
+    Coordinates x = its.mesh.coordinates();
+    x.col(0).array() += 100.0;
+    const CurvedMesh moved = its.mesh.with_coordinates(x);
+    other.set_mesh(&moved, nullptr);
+    other.copy_view(its.scene);
+    // The same view of space: in the other scene's own frame, the same point of the mesh's space is looked at.
+    const auto box = bounding_box(moved);
+    const WorldFrame theirs{0.5 * (box.row(0) + box.row(1)), (box.row(1) - box.row(0)).norm()};
+    const double* focal = other.renderer()->GetActiveCamera()->GetFocalPoint();
+    const Eigen::RowVector3d expected =
+        Eigen::RowVector3d(its.camera()[3], its.camera()[4], its.camera()[5]) * its.frame.size + its.frame.origin;
+    for (int d = 0; d < 3; ++d) EXPECT_NEAR(focal[d] * theirs.size + theirs.origin[d], expected[d], 1e-6);
+}
+
+TEST(Scene, RefusesAReportOfAnotherMesh) {
+    MeshScene scene;
+    const CurvedMesh ring = make_ring();
+    const QualityReport report = make_report(make_ball(), {});
+    EXPECT_THROW(scene.set_mesh(&ring, &report), InvalidInput);
+}
+
+}  // namespace
+}  // namespace curvewright
