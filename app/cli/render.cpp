@@ -70,6 +70,8 @@ void add_render(CLI::App& app, Invocation& invocation) {
     command->add_flag("--nodes", options->scene.show_nodes, "Draw the nodes");
     command->add_flag_function("--no-edges", [options](std::int64_t) { options->scene.show_edges = false; },
                                "Leave out the edges of the elements");
+    command->add_flag_function("--no-legend", [options](std::int64_t) { options->scene.show_legend = false; },
+                               "Leave out the legend");
     command
         ->add_option_function<std::string>(
             "--clip",

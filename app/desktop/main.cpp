@@ -13,6 +13,33 @@
 
 namespace {
 
+/// What may stand on the command line.
+struct Options {
+    QCommandLineOption deformation{QStringLiteral("deformation"),
+                                   QStringLiteral("Boundary deformation to load (.json .csv, or a mesh)."),
+                                   QStringLiteral("FILE")};
+    QCommandLineOption apply{QStringLiteral("apply"), QStringLiteral("Apply the deformation to the boundary at once.")};
+    QCommandLineOption sample{QStringLiteral("sample"), QStringLiteral("Open a sample by its name."),
+                              QStringLiteral("NAME")};
+    QCommandLineOption theme{QStringLiteral("theme"), QStringLiteral("light, dark or system."), QStringLiteral("NAME")};
+    QCommandLineOption size{QStringLiteral("size"), QStringLiteral("Size of the window, for example 1280x800."),
+                            QStringLiteral("WxH")};
+    QCommandLineOption screenshot{
+        QStringLiteral("screenshot"),
+        QStringLiteral("Save a picture of the window as PNG once everything is loaded, and quit."),
+        QStringLiteral("FILE")};
+    QCommandLineParser parser;
+
+    Options() {
+        parser.setApplicationDescription(QStringLiteral("Viewer, editor and untangler of curved high-order meshes."));
+        parser.addHelpOption();
+        parser.addVersionOption();
+        parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("Mesh to open (.msh .msh.gz .vtu .vtk)."),
+                                     QStringLiteral("[MESH]"));
+        parser.addOptions({deformation, apply, sample, theme, size, screenshot});
+    }
+};
+
 /// Saves a picture of the whole window once nothing is loading any more, and quits.
 void take_screenshot_when_idle(curvewright::MainWindow& window, const QString& file) {
     auto* timer = new QTimer(&window);
@@ -31,45 +58,32 @@ void take_screenshot_when_idle(curvewright::MainWindow& window, const QString& f
 
 int main(int argc, char** argv) {
     using namespace curvewright;
-    // --help and --version need no display: they are answered before Qt looks for one.
-    for (int i = 1; i < argc; ++i)
-        if (qstrcmp(argv[i], "--version") == 0) return std::printf("curvewright %s\n", CURVEWRIGHT_VERSION) < 0;
+    QCoreApplication::setOrganizationName(QStringLiteral("curvewright"));
+    QCoreApplication::setApplicationName(QStringLiteral("curvewright"));
+    QCoreApplication::setApplicationVersion(QStringLiteral(CURVEWRIGHT_VERSION));
+    Options options;
+    // Answered before Qt looks for a display.
+    for (int i = 1; i < argc; ++i) {
+        for (const char* asked : {"-h", "--help", "--help-all", "-v", "--version"}) {
+            if (qstrcmp(argv[i], asked) != 0) continue;
+            const QCoreApplication application(argc, argv);
+            options.parser.process(application);
+        }
+    }
     if (const std::string problem = prepare_display(argc, argv); !problem.empty()) {
         std::fprintf(stderr, "curvewright: %s\n", problem.c_str());
         return 1;
     }
-    QCoreApplication::setOrganizationName(QStringLiteral("curvewright"));
-    QCoreApplication::setApplicationName(QStringLiteral("curvewright"));
-    QCoreApplication::setApplicationVersion(QStringLiteral(CURVEWRIGHT_VERSION));
     QApplication application(argc, argv);
     QGuiApplication::setApplicationDisplayName(QString());
     QGuiApplication::setDesktopFileName(QStringLiteral("curvewright"));
 
-    QCommandLineParser parser;
-    parser.setApplicationDescription(QStringLiteral("Viewer, editor and untangler of curved high-order meshes."));
-    parser.addHelpOption();
-    parser.addVersionOption();
-    parser.addPositionalArgument(QStringLiteral("MESH"), QStringLiteral("Mesh to open (.msh .msh.gz .vtu .vtk)."),
-                                 QStringLiteral("[MESH]"));
-    const QCommandLineOption deformation(QStringLiteral("deformation"),
-                                         QStringLiteral("Boundary deformation to load (.json .csv, or a mesh)."),
-                                         QStringLiteral("FILE"));
-    const QCommandLineOption sample(QStringLiteral("sample"), QStringLiteral("Open a sample by its name."),
-                                    QStringLiteral("NAME"));
-    const QCommandLineOption apply(QStringLiteral("apply"), QStringLiteral("Apply the deformation to the boundary at once."));
-    const QCommandLineOption theme_name(QStringLiteral("theme"), QStringLiteral("light, dark or system."),
-                                        QStringLiteral("NAME"));
-    const QCommandLineOption size(QStringLiteral("size"), QStringLiteral("Size of the window, for example 1280x800."),
-                                  QStringLiteral("WxH"));
-    const QCommandLineOption screenshot(
-        QStringLiteral("screenshot"),
-        QStringLiteral("Save a picture of the window as PNG once everything is loaded, and quit."), QStringLiteral("FILE"));
-    parser.addOptions({deformation, sample, apply, theme_name, size, screenshot});
-    parser.process(application);
+    QCommandLineParser& parser = options.parser;
     const auto usage_error = [](const QString& text) {
         std::fprintf(stderr, "curvewright: %s\n", qPrintable(text));
         return 2;
     };
+    if (!parser.parse(QCoreApplication::arguments())) return usage_error(parser.errorText());
     if (parser.positionalArguments().size() > 1) return usage_error(QStringLiteral("expected one MESH at most."));
 
     if (const std::string problem = probe_opengl(); !problem.empty()) {
@@ -79,28 +93,30 @@ int main(int argc, char** argv) {
 
     Theme theme(application);
     MainWindow window(theme);
-    if (parser.isSet(theme_name)) {
-        const QString name = parser.value(theme_name);
+    if (parser.isSet(options.theme)) {
+        const QString name = parser.value(options.theme);
         theme.set_choice(name == QLatin1String("dark")    ? Theme::Choice::dark
                          : name == QLatin1String("light") ? Theme::Choice::light
                                                           : Theme::Choice::follow_system);
     }
-    if (parser.isSet(size)) {
-        const QStringList parts = parser.value(size).split(QLatin1Char('x'));
+    if (parser.isSet(options.size)) {
+        const QStringList parts = parser.value(options.size).split(QLatin1Char('x'));
         if (parts.size() != 2 || parts[0].toInt() <= 0 || parts[1].toInt() <= 0)
             return usage_error(QStringLiteral("--size expects WIDTHxHEIGHT."));
         window.resize(parts[0].toInt(), parts[1].toInt());
     }
     window.show();
-    if (parser.isSet(sample)) {
-        const Sample* found = window.samples().find(parser.value(sample));
-        if (!found) return usage_error(QStringLiteral("there is no sample named '%1'.").arg(parser.value(sample)));
+    if (parser.isSet(options.sample)) {
+        const Sample* found = window.samples().find(parser.value(options.sample));
+        if (!found)
+            return usage_error(QStringLiteral("there is no sample named '%1'.").arg(parser.value(options.sample)));
         window.open_sample(*found);
     } else if (!parser.positionalArguments().isEmpty()) {
-        window.open_file(parser.positionalArguments().front(), parser.value(deformation), parser.isSet(apply));
-    } else if (parser.isSet(deformation)) {
+        window.open_file(parser.positionalArguments().front(), parser.value(options.deformation),
+                         parser.isSet(options.apply));
+    } else if (parser.isSet(options.deformation)) {
         return usage_error(QStringLiteral("--deformation needs a MESH."));
     }
-    if (parser.isSet(screenshot)) take_screenshot_when_idle(window, parser.value(screenshot));
+    if (parser.isSet(options.screenshot)) take_screenshot_when_idle(window, parser.value(options.screenshot));
     return QApplication::exec();
 }

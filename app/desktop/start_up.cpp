@@ -27,13 +27,15 @@ std::string prepare_display(int argc, char** argv) {
     for (const char* refused : {"offscreen", "minimal", "vnc", "linuxfb"})
         if (platform.rfind(refused, 0) == 0)
             return "The platform '" + platform +
-                   "' has no OpenGL for the view: use xcb (for example under xvfb-run), or curvewright-cli, which needs no "
+                   "' has no OpenGL for the view: use xcb (for example under xvfb-run), or curvewright-cli, which "
+                   "needs no "
                    "display.";
     if (platform.empty()) {
         // The view's OpenGL needs GLX or EGL under X; on Wayland that is XWayland.
         if (qEnvironmentVariableIsEmpty("DISPLAY")) {
             if (qEnvironmentVariableIsEmpty("WAYLAND_DISPLAY"))
-                return "There is no display (neither DISPLAY nor WAYLAND_DISPLAY is set): start the program on a desktop or "
+                return "There is no display (neither DISPLAY nor WAYLAND_DISPLAY is set): start the program on a "
+                       "desktop or "
                        "under xvfb-run, or use curvewright-cli, which needs none.";
         } else {
             qputenv("QT_QPA_PLATFORM", "xcb");

@@ -215,7 +215,8 @@ class DocumentTest : public QObject {
         const Inputs inputs;
         QFile manifest(inputs.path(QStringLiteral("MANIFEST")));
         QVERIFY(manifest.open(QIODevice::WriteOnly));
-        manifest.write(R"({"samples": [{"name": "s", "title": "Square", "mesh": "square.msh", "deformation": "bump.json",
+        manifest.write(
+            R"({"samples": [{"name": "s", "title": "Square", "mesh": "square.msh", "deformation": "bump.json",
             "dimension": 2, "order": 3, "elements": 32, "task": "untangle", "start": "straight", "beta": 0.25},
             {"name": "gone", "mesh": "gone.msh"}]})");
         manifest.close();
@@ -226,7 +227,8 @@ class DocumentTest : public QObject {
         QCOMPARE(sample->mesh_path, inputs.path(QStringLiteral("square.msh")));
         QVERIFY(sample->task == Sample::Task::untangle && !sample->is_deformed);
         QCOMPARE(sample->beta, std::optional(0.25));
-        QVERIFY(SampleCatalog::load(inputs.path(QStringLiteral("nowhere"))).error().contains(QStringLiteral("MANIFEST")));
+        QVERIFY(
+            SampleCatalog::load(inputs.path(QStringLiteral("nowhere"))).error().contains(QStringLiteral("MANIFEST")));
     }
 
     void platforms_without_opengl_are_refused() {
@@ -237,6 +239,8 @@ class DocumentTest : public QObject {
     }
 };
 
-QObject* make_test() { return new DocumentTest; }
+QObject* make_test() {
+    return new DocumentTest;
+}
 
 #include "document_test.moc"

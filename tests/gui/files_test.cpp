@@ -1,9 +1,9 @@
 /// Opening, dropping, saving, exporting and closing, as a user does them.
 
 #include <QAction>
+#include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
-#include <QDoubleSpinBox>
 #include <QImage>
 #include <QLabel>
 #include <QMessageBox>
@@ -136,8 +136,10 @@ class FilesTest : public QObject {
         const struct {
             const char *name, *filter;
             MeshFormat format;
-        } cases[] = {{"out.vtu", "VTU", MeshFormat::vtu}, {"out4.msh", "MSH 4.1", MeshFormat::msh4},
-                     {"out2.msh", "MSH 2.2", MeshFormat::msh2}, {"bare", "MSH 2.2", MeshFormat::msh2}};
+        } cases[] = {{"out.vtu", "VTU", MeshFormat::vtu},
+                     {"out4.msh", "MSH 4.1", MeshFormat::msh4},
+                     {"out2.msh", "MSH 2.2", MeshFormat::msh2},
+                     {"bare", "MSH 2.2", MeshFormat::msh2}};
         for (const auto& entry : cases) {
             test.file_answer = test.inputs.path(QLatin1String(entry.name));
             test.filter_answer = QLatin1String(entry.filter);
@@ -296,6 +298,8 @@ class FilesTest : public QObject {
     }
 };
 
-QObject* make_test() { return new FilesTest; }
+QObject* make_test() {
+    return new FilesTest;
+}
 
 #include "files_test.moc"

@@ -15,7 +15,9 @@ namespace curvewright::testing {
 namespace {
 Theme* the_theme = nullptr;
 }
-Theme& theme() { return *the_theme; }
+Theme& theme() {
+    return *the_theme;
+}
 }  // namespace curvewright::testing
 
 int main(int argc, char** argv) {

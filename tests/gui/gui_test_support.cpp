@@ -12,7 +12,9 @@
 namespace curvewright::testing {
 namespace {
 
-void write_text(const QString& path, const char* text) { std::ofstream(path.toStdString()) << text; }
+void write_text(const QString& path, const char* text) {
+    std::ofstream(path.toStdString()) << text;
+}
 
 }  // namespace
 
@@ -21,8 +23,9 @@ Inputs::Inputs() {
     write_mesh(path(QStringLiteral("square.msh")).toStdString(), square);
     write_mesh(path(QStringLiteral("clockwise.msh")).toStdString(), flip_orientation(square));
     write_mesh(path(QStringLiteral("cube.msh")).toStdString(), cube_mesh(2, 2));
-    write_text(path(QStringLiteral("bump.json")),
-               R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 0.06 * sin(4 * pi * x)^2"}]})json");
+    write_text(
+        path(QStringLiteral("bump.json")),
+        R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 0.06 * sin(4 * pi * x)^2"}]})json");
     write_text(path(QStringLiteral("gentle.json")),
                R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 0.02 * sin(pi * x)"}]})json");
     write_text(path(QStringLiteral("malformed.msh")), "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 1 2\n");
@@ -56,7 +59,9 @@ void WindowUnderTest::click(const char* button_name) {
     QTest::mouseClick(button, Qt::LeftButton);
 }
 
-QString WindowUnderTest::text(const char* label_name) { return find<QLabel>(label_name)->text(); }
+QString WindowUnderTest::text(const char* label_name) {
+    return find<QLabel>(label_name)->text();
+}
 
 bool WindowUnderTest::wait_for_job() {
     return QTest::qWaitFor([this] { return !window->jobs().runner().is_running(); }, 60000);

@@ -49,10 +49,10 @@ struct WindowUnderTest {
     bool wait_for_job();
 
     Inputs inputs;
-    QString file_answer, filter_answer;                      ///< what the file dialogs answer
-    UnsavedAnswer unsaved_answer = UnsavedAnswer::cancel;    ///< what the question about unsaved changes answers
-    int unsaved_questions = 0;                               ///< how often it was asked
-    QStringList errors;                                      ///< messages shown
+    QString file_answer, filter_answer;                    ///< what the file dialogs answer
+    UnsavedAnswer unsaved_answer = UnsavedAnswer::cancel;  ///< what the question about unsaved changes answers
+    int unsaved_questions = 0;                             ///< how often it was asked
+    QStringList errors;                                    ///< messages shown
     std::unique_ptr<MainWindow> window;
 };
 

@@ -237,7 +237,8 @@ class WindowTest : public QObject {
         // The middle shows the mesh, the corner the ground.
         QCOMPARE(once.pixelColor(2, 2), theme().color(QStringLiteral("view")));
         int colored = 0;
-        for (int x = 0; x < once.width(); ++x) colored += once.pixelColor(x, once.height() / 2) != once.pixelColor(2, 2);
+        for (int x = 0; x < once.width(); ++x)
+            colored += once.pixelColor(x, once.height() / 2) != once.pixelColor(2, 2);
         QVERIFY(colored > once.height() / 2);
         const QImage grabbed = test.window->view().grabFramebuffer();
         QCOMPARE(grabbed.pixelColor(2, 2), theme().color(QStringLiteral("view")));
@@ -249,6 +250,8 @@ class WindowTest : public QObject {
     }
 };
 
-QObject* make_test() { return new WindowTest; }
+QObject* make_test() {
+    return new WindowTest;
+}
 
 #include "window_test.moc"

@@ -7,7 +7,9 @@
 namespace curvewright {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("Deformation", text); }
+QString tr(const char* text) {
+    return QCoreApplication::translate("Deformation", text);
+}
 
 QString short_number(double value) {
     QString text = QString::number(value, 'g', 4);
@@ -19,7 +21,9 @@ QString vector(const Vector3& v) {
     return QStringLiteral("(%1, %2, %3)").arg(short_number(v[0]), short_number(v[1]), short_number(v[2]));
 }
 
-QString axis_name(int axis) { return QString(QLatin1Char("xyz"[axis])); }
+QString axis_name(int axis) {
+    return QString(QLatin1Char("xyz"[axis]));
+}
 
 struct Describe {
     QString operator()(const Translate& o) const { return tr("translate by %1").arg(vector(o.vector)); }

@@ -24,9 +24,13 @@ MeshDocument::MeshDocument(QObject* parent) : QObject(parent) {
     connect(&history_, &QUndoStack::cleanChanged, this, [this] { emit dirty_changed(is_dirty()); });
 }
 
-MeshDocument::~MeshDocument() { history_.disconnect(this); }
+MeshDocument::~MeshDocument() {
+    history_.disconnect(this);
+}
 
-QString MeshDocument::file_name() const { return QFileInfo(file_path_).fileName(); }
+QString MeshDocument::file_name() const {
+    return QFileInfo(file_path_).fileName();
+}
 
 bool MeshDocument::is_deformation_applied() const {
     return deformation_ && current_.applied_deformations.contains(deformation_->file_path);
@@ -52,7 +56,9 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     if (was_dirty) emit dirty_changed(false);
 }
 
-void MeshDocument::close() { open({}); }
+void MeshDocument::close() {
+    open({});
+}
 
 void MeshDocument::apply(const QString& name, MeshState state) {
     Q_ASSERT(has_mesh() && state.mesh && state.mesh->topology().node_count() == current_.mesh->topology().node_count());

@@ -13,7 +13,9 @@
 namespace curvewright {
 namespace {
 
-QString tr(const char* text, int n = -1) { return QCoreApplication::translate("Mesh", text, nullptr, n); }
+QString tr(const char* text, int n = -1) {
+    return QCoreApplication::translate("Mesh", text, nullptr, n);
+}
 
 std::vector<Index> elements_of_group(const MeshTopology& topology, const PhysicalGroup& group,
                                      const std::vector<Index>& nodes) {

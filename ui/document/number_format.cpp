@@ -30,6 +30,8 @@ QString format_count(long long value) {
     return text;
 }
 
-QString exact_number(double value) { return QString::number(value, 'g', 17); }
+QString exact_number(double value) {
+    return QString::number(value, 'g', 17);
+}
 
 }  // namespace curvewright

@@ -10,9 +10,13 @@
 namespace curvewright {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("Samples", text); }
+QString tr(const char* text) {
+    return QCoreApplication::translate("Samples", text);
+}
 
-QString manifest_of(const QString& folder) { return QDir(folder).filePath(QStringLiteral("MANIFEST")); }
+QString manifest_of(const QString& folder) {
+    return QDir(folder).filePath(QStringLiteral("MANIFEST"));
+}
 
 }  // namespace
 
@@ -39,8 +43,8 @@ SampleCatalog SampleCatalog::load(const QString& folder) {
     QJsonParseError problem;
     const QJsonDocument json = QJsonDocument::fromJson(file.readAll(), &problem);
     if (problem.error != QJsonParseError::NoError || !json.object().value(QLatin1String("samples")).isArray()) {
-        catalog.error_ = tr("%1: expected a JSON object with an array \"samples\"; %2.")
-                             .arg(file.fileName(), problem.errorString());
+        catalog.error_ =
+            tr("%1: expected a JSON object with an array \"samples\"; %2.").arg(file.fileName(), problem.errorString());
         return catalog;
     }
     const QDir base(folder);

@@ -62,7 +62,9 @@ bool JobRunner::start(const QString& title, Work work) {
     return true;
 }
 
-void JobRunner::cancel() { stop_.request_stop(); }
+void JobRunner::cancel() {
+    stop_.request_stop();
+}
 
 void JobRunner::cancel_and_wait() {
     if (!is_running_) return;

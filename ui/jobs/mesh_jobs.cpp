@@ -12,7 +12,9 @@
 namespace curvewright {
 namespace {
 
-std::filesystem::path to_path(const QString& path) { return {path.toStdU16String()}; }
+std::filesystem::path to_path(const QString& path) {
+    return {path.toStdU16String()};
+}
 
 /// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason.
 MeshState make_state(CurvedMesh mesh, const TaskContext& context) {
@@ -114,8 +116,7 @@ bool MeshJobs::warp(const WarpOptions& options) {
     if (!why_not_warp().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
     return run_step(tr("Warping"), true, [loaded, options](const CurvedMesh& mesh, const TaskContext& context) {
-        WarpResult result =
-            curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), options, context);
+        WarpResult result = curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), options, context);
         const WarpReport& report = result.report;
         Step step;
         step.name = options.weighting == Weighting::convex ? tr("Warp, convex weights") : tr("Warp, affine weights");
@@ -143,8 +144,12 @@ bool MeshJobs::untangle(const SignedAngleOptions& options) {
         step.name = tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
         const QString passes = result.passes == 1 ? tr("1 pass") : tr("%1 passes").arg(format_count(result.passes));
         switch (result.reason) {
-            case StopReason::converged: step.note = tr("Converged after %1.").arg(passes); break;
-            case StopReason::pass_limit: step.note = tr("Stopped at the limit of %1.").arg(passes); break;
+            case StopReason::converged:
+                step.note = tr("Converged after %1.").arg(passes);
+                break;
+            case StopReason::pass_limit:
+                step.note = tr("Stopped at the limit of %1.").arg(passes);
+                break;
             case StopReason::no_progress:
                 step.note = tr("Stopped after %1: the last one made things worse and was taken back.").arg(passes);
                 break;
@@ -189,7 +194,9 @@ QString MeshJobs::why_not_deform() const {
     return {};
 }
 
-QString MeshJobs::why_not_warp() const { return why_not_deform(); }
+QString MeshJobs::why_not_warp() const {
+    return why_not_deform();
+}
 
 QString MeshJobs::why_not_untangle() const {
     if (!document_.has_mesh()) return tr("Open a mesh first.");

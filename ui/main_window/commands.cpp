@@ -49,7 +49,9 @@ const Command command_list[] = {
 
 #undef TEXT
 
-QString translated(const char* text) { return QCoreApplication::translate("Command", text); }
+QString translated(const char* text) {
+    return QCoreApplication::translate("Command", text);
+}
 
 QList<QKeySequence> shortcuts_of(const Command& command) {
     QList<QKeySequence> keys;
@@ -60,13 +62,17 @@ QList<QKeySequence> shortcuts_of(const Command& command) {
 
 }  // namespace
 
-std::span<const Command> commands() { return command_list; }
+std::span<const Command> commands() {
+    return command_list;
+}
 
 QString plain_text(const Command& command) {
     return translated(command.text).remove(QLatin1Char('&')).remove(QChar(0x2026));
 }
 
-QString help_text(const Command& command) { return translated(command.help); }
+QString help_text(const Command& command) {
+    return translated(command.help);
+}
 
 CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(parent) {
     for (const Command& command : commands()) {

@@ -17,7 +17,9 @@
 namespace curvewright {
 namespace {
 
-QString tr(const char* text) { return QCoreApplication::translate("Dialogs", text); }
+QString tr(const char* text) {
+    return QCoreApplication::translate("Dialogs", text);
+}
 
 UnsavedAnswer ask_with_box(QWidget* parent, const QString& file_name) {
     QMessageBox box(QMessageBox::Question, tr("Unsaved changes"),
@@ -26,9 +28,12 @@ UnsavedAnswer ask_with_box(QWidget* parent, const QString& file_name) {
     box.setInformativeText(tr("Without saving, the steps of the history are lost."));
     box.setDefaultButton(QMessageBox::Save);
     switch (box.exec()) {
-        case QMessageBox::Save: return UnsavedAnswer::save;
-        case QMessageBox::Discard: return UnsavedAnswer::discard;
-        default: return UnsavedAnswer::cancel;
+        case QMessageBox::Save:
+            return UnsavedAnswer::save;
+        case QMessageBox::Discard:
+            return UnsavedAnswer::discard;
+        default:
+            return UnsavedAnswer::cancel;
     }
 }
 
@@ -80,7 +85,8 @@ void show_shortcuts(QWidget* parent) {
     grid->addWidget(make_label(tr("Keyboard"), "section"), row++, 0, 1, 2);
     for (const Command& command : commands()) {
         QStringList keys;
-        for (const QString& key : QString::fromLatin1(command.shortcuts).split(QStringLiteral("; "), Qt::SkipEmptyParts))
+        for (const QString& key :
+             QString::fromLatin1(command.shortcuts).split(QStringLiteral("; "), Qt::SkipEmptyParts))
             keys << QKeySequence(key, QKeySequence::PortableText).toString(QKeySequence::NativeText);
         if (!keys.isEmpty()) add(keys.join(tr(" or ")), help_text(command));
     }

@@ -26,7 +26,9 @@
 namespace curvewright {
 namespace {
 
-Color to_color(const QColor& color) { return {color.redF(), color.greenF(), color.blueF()}; }
+Color to_color(const QColor& color) {
+    return {color.redF(), color.greenF(), color.blueF()};
+}
 
 const struct {
     CommandId command;
@@ -39,15 +41,22 @@ const struct {
 const struct {
     CommandId command;
     ViewDirection direction;
-} look_commands[] = {{CommandId::fit, ViewDirection::fit},           {CommandId::look_front, ViewDirection::plus_y},
-                     {CommandId::look_back, ViewDirection::minus_y}, {CommandId::look_left, ViewDirection::plus_x},
-                     {CommandId::look_right, ViewDirection::minus_x}, {CommandId::look_top, ViewDirection::minus_z},
-                     {CommandId::look_bottom, ViewDirection::plus_z}, {CommandId::look_isometric, ViewDirection::isometric}};
+} look_commands[] = {{CommandId::fit, ViewDirection::fit},
+                     {CommandId::look_front, ViewDirection::plus_y},
+                     {CommandId::look_back, ViewDirection::minus_y},
+                     {CommandId::look_left, ViewDirection::plus_x},
+                     {CommandId::look_right, ViewDirection::minus_x},
+                     {CommandId::look_top, ViewDirection::minus_z},
+                     {CommandId::look_bottom, ViewDirection::plus_z},
+                     {CommandId::look_isometric, ViewDirection::isometric}};
 
 }  // namespace
 
 MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
-    : theme_(theme), dialogs_(std::move(dialogs)), jobs_(document_), samples_(SampleCatalog::load()),
+    : theme_(theme),
+      dialogs_(std::move(dialogs)),
+      jobs_(document_),
+      samples_(SampleCatalog::load()),
       actions_(theme, this) {
     setObjectName(QStringLiteral("main_window"));
     setWindowIcon(Theme::program_icon());
@@ -68,7 +77,9 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     update_commands();
 }
 
-MainWindow::~MainWindow() { jobs_.runner().cancel_and_wait(); }
+MainWindow::~MainWindow() {
+    jobs_.runner().cancel_and_wait();
+}
 
 void MainWindow::connect_commands() {
     const auto on = [this](CommandId id, auto function) { connect(actions_[id], &QAction::triggered, this, function); };
@@ -102,7 +113,11 @@ void MainWindow::connect_commands() {
         });
     for (const auto& entry : theme_choices)
         on(entry.command, [entry] { QSettings().setValue(QStringLiteral("theme"), QLatin1String(entry.name)); });
-    connect(&theme_, &Theme::changed, this, &MainWindow::update_options);
+    connect(&theme_, &Theme::changed, this, [this] {
+        for (const auto& entry : theme_choices)
+            if (entry.choice == theme_.choice()) actions_[entry.command]->setChecked(true);
+        update_options();
+    });
 }
 
 void MainWindow::connect_document() {
@@ -182,9 +197,10 @@ void MainWindow::show_state() {
         verdict_->setText(validity_sentence(summary));
         set_tone(verdict_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
         if (state.quality->orientation == Orientation::negative)
-            banner_->show_warning(tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
-                                     "numbering, not of tangling."),
-                                  tr("Flip"));
+            banner_->show_warning(
+                tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
+                   "numbering, not of tangling."),
+                tr("Flip"));
         else if (state.quality->orientation == Orientation::mixed)
             banner_->show_warning(tr("Some elements are numbered clockwise and others counter-clockwise; those of the "
                                      "minority count as tangled."),
@@ -204,7 +220,8 @@ void MainWindow::update_commands() {
     actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
-    for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend})
+    for (const CommandId id :
+         {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend})
         actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
     for (const auto& entry : look_commands)

@@ -46,8 +46,8 @@ class MainWindow : public QMainWindow {
     MeshView& view() { return *view_; }
     QAction* action(CommandId id) const { return actions_[id]; }
 
-    /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is loaded as
-    /// a deformation of the open mesh. apply: also apply the deformation to the boundary.
+    /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is
+    /// loaded as a deformation of the open mesh. apply: also apply the deformation to the boundary.
     void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
     void open_sample(const Sample& sample);
     const SampleCatalog& samples() const { return samples_; }
@@ -129,7 +129,7 @@ class MainWindow : public QMainWindow {
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr;
 
     std::function<void()> after_save_;
-    std::optional<MeshFormat> saved_format_;  ///< of the file that Save may overwrite; none = Save asks for a name
+    std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name
     std::optional<MeshFormat> pending_format_;  ///< of the file that is being saved
     QByteArray first_layout_;
     bool is_closing_ = false;

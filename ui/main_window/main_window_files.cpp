@@ -79,9 +79,15 @@ void MainWindow::when_settled(std::function<void()> next) {
         next();
         return;
     }
-    switch (dialogs_.ask_unsaved(this, document_.file_name())) {
-        case UnsavedAnswer::cancel: break;
-        case UnsavedAnswer::discard: next(); break;
+    const UnsavedAnswer answer = dialogs_.ask_unsaved(this, document_.file_name());
+    // Only a window that is being closed gets here with a job running; saving is a job itself.
+    if (answer != UnsavedAnswer::cancel) jobs_.runner().cancel_and_wait();
+    switch (answer) {
+        case UnsavedAnswer::cancel:
+            break;
+        case UnsavedAnswer::discard:
+            next();
+            break;
         case UnsavedAnswer::save:
             after_save_ = std::move(next);
             save(false);
@@ -127,8 +133,9 @@ void MainWindow::open_sample(const Sample& sample) {
 void MainWindow::load_deformation(const QString& path) {
     if (is_busy()) return;
     if (!document_.has_mesh()) {
-        dialogs_.show_error(this, tr("No mesh is open"),
-                            tr("%1 is a deformation: open the mesh that it deforms first.").arg(QFileInfo(path).fileName()));
+        dialogs_.show_error(
+            this, tr("No mesh is open"),
+            tr("%1 is a deformation: open the mesh that it deforms first.").arg(QFileInfo(path).fileName()));
         return;
     }
     if (jobs_.load_deformation(path)) remember_folder(path);
@@ -143,9 +150,9 @@ void MainWindow::ask_open() {
 
 void MainWindow::ask_load_deformation() {
     if (is_busy()) return;
-    const QString path = dialogs_.open_file(
-        this, tr("Load a deformation"), last_folder(),
-        tr("Deformations (*.json *.csv *.msh *.msh.gz *.vtu *.vtk);;All files (*)"));
+    const QString path =
+        dialogs_.open_file(this, tr("Load a deformation"), last_folder(),
+                           tr("Deformations (*.json *.csv *.msh *.msh.gz *.vtu *.vtk);;All files (*)"));
     if (!path.isEmpty()) load_deformation(path);
 }
 
@@ -225,7 +232,6 @@ void MainWindow::closeEvent(QCloseEvent* event) {
     if (document_.is_dirty() && !is_closing_) {
         event->ignore();
         // Saving is a job: the window closes again when it has ended.
-        if (jobs_.runner().is_running()) jobs_.runner().cancel_and_wait();
         when_settled([this] {
             is_closing_ = true;
             QMetaObject::invokeMethod(this, &QWidget::close, Qt::QueuedConnection);
@@ -243,7 +249,9 @@ void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
     start_page_->set_drop_active(true);
 }
 
-void MainWindow::dragLeaveEvent(QDragLeaveEvent*) { start_page_->set_drop_active(false); }
+void MainWindow::dragLeaveEvent(QDragLeaveEvent*) {
+    start_page_->set_drop_active(false);
+}
 
 void MainWindow::dropEvent(QDropEvent* event) {
     start_page_->set_drop_active(false);
@@ -251,7 +259,8 @@ void MainWindow::dropEvent(QDropEvent* event) {
     if (path.isEmpty()) return;
     event->acceptProposedAction();
     // After the drop has ended: a question asked now would hold up the program that the file comes from.
-    QMetaObject::invokeMethod(this, [this, path] { open_file(path); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this, path] { open_file(path); }, Qt::QueuedConnection);
 }
 
 }  // namespace curvewright

@@ -179,7 +179,8 @@ void MainWindow::build_docks() {
 
     left_dock_ = add_dock(QStringLiteral("mesh_dock"), tr("Mesh"), Qt::LeftDockWidgetArea, mesh_panel_);
     right_dock_ = add_dock(QStringLiteral("operations_dock"), tr("Operations"), Qt::RightDockWidgetArea, right);
-    bottom_dock_ = add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
+    bottom_dock_ =
+        add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     // The tabs and the headings say what these two are.
     right_dock_->setTitleBarWidget(new QWidget);

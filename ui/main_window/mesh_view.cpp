@@ -1,6 +1,7 @@
 #include "ui/main_window/mesh_view.h"
 
 #include <array>
+#include <cstdlib>
 
 #include <QMouseEvent>
 #include <QOffscreenSurface>
@@ -72,6 +73,7 @@ struct MeshView::Parts {
     QVariantAnimation flight;
     std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id
     QPointF press_position;
+    int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
     bool may_be_click = false;
 };
@@ -97,9 +99,15 @@ MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), parts_(std::make_un
                 *static_cast<bool*>(call_data) =
                     view->context() != nullptr && QOpenGLContext::currentContext() == view->context();
                 break;
-            case vtkCommand::WindowSupportsOpenGLEvent: *static_cast<int*>(call_data) = 1; break;
-            case vtkCommand::WindowIsDirectEvent: *static_cast<int*>(call_data) = 1; break;
-            case vtkCommand::RenderEvent: view->request_frame(); break;
+            case vtkCommand::WindowSupportsOpenGLEvent:
+                *static_cast<int*>(call_data) = 1;
+                break;
+            case vtkCommand::WindowIsDirectEvent:
+                *static_cast<int*>(call_data) = 1;
+                break;
+            case vtkCommand::RenderEvent:
+                view->request_frame();
+                break;
             case vtkCommand::CreateTimerEvent: {
                 const int id = own.interactor->GetTimerEventId();
                 auto* timer = new QTimer(view);
@@ -123,7 +131,8 @@ MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), parts_(std::make_un
                 });
                 break;
             }
-            default: break;
+            default:
+                break;
         }
     });
     for (const auto event : {vtkCommand::WindowMakeCurrentEvent, vtkCommand::WindowIsCurrentEvent,
@@ -168,7 +177,9 @@ void MeshView::set_options(const SceneOptions& options) {
     scale_to_device();
 }
 
-const SceneOptions& MeshView::options() const { return parts_->options; }
+const SceneOptions& MeshView::options() const {
+    return parts_->options;
+}
 
 void MeshView::scale_to_device() {
     parts_->options.pixel_ratio = devicePixelRatioF();
@@ -297,10 +308,9 @@ void MeshView::request_frame() {
 void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat) {
     const double ratio = devicePixelRatioF();
     const int height = parts_->window->GetSize()[1];
-    parts_->interactor->SetEventInformation(static_cast<int>(position.x() * ratio),
-                                            height - 1 - static_cast<int>(position.y() * ratio),
-                                            modifiers.testFlag(Qt::ControlModifier),
-                                            modifiers.testFlag(Qt::ShiftModifier), 0, is_repeat ? 1 : 0);
+    parts_->interactor->SetEventInformation(
+        static_cast<int>(position.x() * ratio), height - 1 - static_cast<int>(position.y() * ratio),
+        modifiers.testFlag(Qt::ControlModifier), modifiers.testFlag(Qt::ShiftModifier), 0, is_repeat ? 1 : 0);
     parts_->interactor->SetAltKey(modifiers.testFlag(Qt::AltModifier));
     parts_->interactor->InvokeEvent(vtk_event);
 }
@@ -336,13 +346,17 @@ void MeshView::mouseReleaseEvent(QMouseEvent* event) {
 
 void MeshView::wheelEvent(QWheelEvent* event) {
     parts_->flight.stop();
-    const int delta = event->angleDelta().y();
-    if (delta == 0) return;
-    send(delta > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent, event->position(),
-         event->modifiers());
+    // Touch pads send many small turns: a notch is 120 of them.
+    int& turned = parts_->wheel_turned;
+    if ((event->angleDelta().y() > 0) != (turned > 0)) turned = 0;
+    for (turned += event->angleDelta().y(); std::abs(turned) >= 120; turned += turned > 0 ? -120 : 120)
+        send(turned > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent, event->position(),
+             event->modifiers());
     event->accept();
 }
 
-void MeshView::leaveEvent(QEvent*) { parts_->interactor->InvokeEvent(vtkCommand::LeaveEvent); }
+void MeshView::leaveEvent(QEvent*) {
+    parts_->interactor->InvokeEvent(vtkCommand::LeaveEvent);
+}
 
 }  // namespace curvewright

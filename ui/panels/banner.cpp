@@ -46,6 +46,8 @@ void Banner::show_warning(const QString& text, const QString& action) {
     show();
 }
 
-QString Banner::text() const { return text_->text(); }
+QString Banner::text() const {
+    return text_->text();
+}
 
 }  // namespace curvewright

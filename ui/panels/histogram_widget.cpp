@@ -17,7 +17,9 @@ namespace {
 constexpr double left_margin = 36.0, right_margin = 8.0, top_margin = 6.0, bottom_margin = 22.0;
 constexpr double alarm_gap = 8.0;
 
-QColor to_qcolor(const Color& color) { return QColor::fromRgbF(float(color[0]), float(color[1]), float(color[2])); }
+QColor to_qcolor(const Color& color) {
+    return QColor::fromRgbF(float(color[0]), float(color[1]), float(color[2]));
+}
 
 /// Tick counts for a scale up to limit.
 std::vector<Index> ticks(Index limit, bool is_logarithmic) {
@@ -147,7 +149,8 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
 
     painter.setPen(bars_.tangled.count() > 0 ? theme_.color(QStringLiteral("alarm")) : muted);
     const QRectF alarm = bar_area(-1);
-    painter.drawText(QRectF(alarm.center().x() - 24, area.bottom() + 7, 48, 14), Qt::AlignCenter, QStringLiteral("≤ 0"));
+    painter.drawText(QRectF(alarm.center().x() - 24, area.bottom() + 7, 48, 14), Qt::AlignCenter,
+                     QStringLiteral("≤ 0"));
     painter.setPen(muted);
     const double first = bar_area(0).left(), width = area.right() - first;
     for (const double value : {0.25, 0.5, 0.75, 1.0}) {
@@ -165,7 +168,8 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
         painter.setRenderHint(QPainter::Antialiasing);
         painter.setPen(Qt::NoPen);
         painter.setBrush(theme_.color(QStringLiteral("text")));
-        painter.drawPolygon(QPolygonF({{x, area.bottom() + 1.0}, {x - 3.5, area.bottom() + 7.0}, {x + 3.5, area.bottom() + 7.0}}));
+        painter.drawPolygon(
+            QPolygonF({{x, area.bottom() + 1.0}, {x - 3.5, area.bottom() + 7.0}, {x + 3.5, area.bottom() + 7.0}}));
     }
 }
 
@@ -186,7 +190,8 @@ void HistogramWidget::mouseMoveEvent(QMouseEvent* event) {
         QToolTip::hideText();
         return;
     }
-    const QString count = bar(index).count() == 1 ? tr("1 element") : tr("%1 elements").arg(format_count(bar(index).count()));
+    const QString count =
+        bar(index).count() == 1 ? tr("1 element") : tr("%1 elements").arg(format_count(bar(index).count()));
     const QString range = index < 0 ? tr("tangled (scaled Jacobian ≤ 0)")
                                     : tr("scaled Jacobian %1 to %2")
                                           .arg(double(index) / HistogramBars::bins, 0, 'f', 2)

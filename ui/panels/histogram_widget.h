@@ -10,8 +10,8 @@
 
 namespace curvewright {
 
-/// Bars of one quality report: an alarm bin "≤ 0" of the tangled elements, then equal bins over [0, 1]. Undecided elements
-/// are stacked in their own colour.
+/// Bars of one quality report: an alarm bin "≤ 0" of the tangled elements, then equal bins over [0, 1]. Undecided
+/// elements are stacked in their own colour.
 struct HistogramBars {
     static constexpr int bins = 25;
     struct Bar {
@@ -55,9 +55,11 @@ class HistogramWidget : public QWidget {
 
   private:
     QRectF plot() const;
-    QRectF bar_area(int bar) const;  ///< full height; bar -1 = the tangled one
+    QRectF bar_area(int bar) const;      ///< full height; bar -1 = the tangled one
     int bar_at(QPointF position) const;  ///< -2 = none
-    const HistogramBars::Bar& bar(int index) const { return index < 0 ? bars_.tangled : bars_.bars[static_cast<std::size_t>(index)]; }
+    const HistogramBars::Bar& bar(int index) const {
+        return index < 0 ? bars_.tangled : bars_.bars[static_cast<std::size_t>(index)];
+    }
     double height_of(Index count) const;  ///< fraction of the plot
 
     const Theme& theme_;

@@ -68,7 +68,9 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     show_state();
 }
 
-void MeshPanel::set_history_enabled(bool is_enabled) { history_->setEnabled(is_enabled); }
+void MeshPanel::set_history_enabled(bool is_enabled) {
+    history_->setEnabled(is_enabled);
+}
 
 void MeshPanel::show_file() {
     const QString name = document_.file_name();

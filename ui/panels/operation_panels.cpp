@@ -37,7 +37,9 @@ QFormLayout* make_form() {
     return form;
 }
 
-QVBoxLayout* layout_of(QWidget* panel) { return static_cast<QVBoxLayout*>(panel->layout()); }
+QVBoxLayout* layout_of(QWidget* panel) {
+    return static_cast<QVBoxLayout*>(panel->layout());
+}
 
 }  // namespace
 
@@ -94,7 +96,8 @@ DeformPanel::DeformPanel(MeshJobs& jobs, QWidget* parent)
     QVBoxLayout* layout = make_layout(this);
     layout->addLayout(head);
     layout->addWidget(operations_);
-    layout->addWidget(make_paragraph(tr("Moves the boundary nodes only; the interior stays, so elements may tangle."), "muted"));
+    layout->addWidget(
+        make_paragraph(tr("Moves the boundary nodes only; the interior stays, so elements may tangle."), "muted"));
     layout->addWidget(applied_);
     finish_layout();
 
@@ -103,7 +106,9 @@ DeformPanel::DeformPanel(MeshJobs& jobs, QWidget* parent)
     show_deformation();
 }
 
-void DeformPanel::run() { jobs_.deform(); }
+void DeformPanel::run() {
+    jobs_.deform();
+}
 
 void DeformPanel::refresh() {
     OperationPanel::refresh();
@@ -146,13 +151,16 @@ WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
     layout->addLayout(form);
     layout->addWidget(make_paragraph(
         tr("Moves the boundary as the deformation says, from where it is now; the interior follows."), "muted"));
-    applied_ = make_paragraph(tr("The deformation is applied already in this state. Undo that first, or it counts twice."), "");
+    applied_ = make_paragraph(
+        tr("The deformation is applied already in this state. Undo that first, or it counts twice."), "");
     set_tone(applied_, "warning");
     layout->addWidget(applied_);
     finish_layout();
 }
 
-void WarpPanel::run() { jobs_.warp(options()); }
+void WarpPanel::run() {
+    jobs_.warp(options());
+}
 
 void WarpPanel::refresh() {
     OperationPanel::refresh();
@@ -178,7 +186,9 @@ void LogSpinBox::stepBy(int steps) {
     setValue(next);
 }
 
-QString LogSpinBox::textFromValue(double value) const { return QString::number(value, 'g', 4); }
+QString LogSpinBox::textFromValue(double value) const {
+    return QString::number(value, 'g', 4);
+}
 
 UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Untangle"), QStringLiteral("untangle_button"), parent) {
@@ -193,8 +203,9 @@ UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     beta_->setRange(1e-5, 1.0);
     beta_->setLocale(QLocale::c());
     beta_->setValue(defaults.beta);
-    beta_->setToolTip(tr("Weight of the angles against the displacement. It depends on the unit of length: thin, "
-                         "stretched layers want small values."));
+    beta_->setToolTip(
+        tr("Weight of the angles against the displacement. It depends on the unit of length: thin, "
+           "stretched layers want small values."));
     passes_ = new QSpinBox;
     passes_->setObjectName(QStringLiteral("max_passes"));
     passes_->setRange(1, 1000);
@@ -215,7 +226,9 @@ UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     finish_layout();
 }
 
-void UntanglePanel::run() { jobs_.untangle(options()); }
+void UntanglePanel::run() {
+    jobs_.untangle(options());
+}
 
 SignedAngleOptions UntanglePanel::options() const {
     SignedAngleOptions options;
@@ -225,6 +238,8 @@ SignedAngleOptions UntanglePanel::options() const {
     return options;
 }
 
-void UntanglePanel::set_beta(double beta) { beta_->setValue(beta); }
+void UntanglePanel::set_beta(double beta) {
+    beta_->setValue(beta);
+}
 
 }  // namespace curvewright

@@ -25,7 +25,8 @@ QualityPanel::QualityPanel(MeshDocument& document, const Theme& theme, QWidget* 
     reference_->setToolTip(tr("What the present mesh is compared with"));
     logarithmic_ = new QCheckBox(tr("Log counts"));
     logarithmic_->setObjectName(QStringLiteral("log_counts"));
-    logarithmic_->setToolTip(tr("Draw the counts logarithmically, so that a few bad elements show among many good ones"));
+    logarithmic_->setToolTip(
+        tr("Draw the counts logarithmically, so that a few bad elements show among many good ones"));
     logarithmic_->setChecked(QSettings().value(QStringLiteral("quality/log_counts"), true).toBool());
 
     before_ = make_side(QStringLiteral("before"));
@@ -91,14 +92,16 @@ void QualityPanel::show_figures(const Side& side, const MeshState& state) {
         return;
     }
     const QualitySummary& summary = state.quality->summary;
-    side.figures->setText(tr("min %1   mean %2   max %3")
-                              .arg(format_number(summary.min), format_number(summary.mean), format_number(summary.max)));
-    side.figures->setToolTip(tr("Scaled Jacobian: min %1, mean %2, max %3")
-                                 .arg(exact_number(summary.min), exact_number(summary.mean), exact_number(summary.max)));
+    side.figures->setText(
+        tr("min %1   mean %2   max %3")
+            .arg(format_number(summary.min), format_number(summary.mean), format_number(summary.max)));
+    side.figures->setToolTip(
+        tr("Scaled Jacobian: min %1, mean %2, max %3")
+            .arg(exact_number(summary.min), exact_number(summary.mean), exact_number(summary.max)));
     side.validity->setText(describe_validity(summary));
-    side.validity->setToolTip(tr("%1 valid, %2 tangled, %3 undecided")
-                                  .arg(format_count(summary.valid), format_count(summary.invalid),
-                                       format_count(summary.undecided)));
+    side.validity->setToolTip(
+        tr("%1 valid, %2 tangled, %3 undecided")
+            .arg(format_count(summary.valid), format_count(summary.invalid), format_count(summary.undecided)));
     set_tone(side.validity, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
 }
 

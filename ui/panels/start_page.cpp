@@ -37,15 +37,15 @@ class SampleCard : public QFrame {
         picture->setFixedHeight(thumbnail_size.height());
         picture->setAlignment(Qt::AlignCenter);
         const QPixmap thumbnail(sample.thumbnail_path);
-        if (!thumbnail.isNull()) picture->setPixmap(rounded(thumbnail));
-        else picture->setText(tr("P%1, %2D").arg(sample.order).arg(sample.dimension));
+        if (!thumbnail.isNull())
+            picture->setPixmap(rounded(thumbnail));
+        else
+            picture->setText(tr("P%1, %2D").arg(sample.order).arg(sample.dimension));
 
         const QString task = sample.task == Sample::Task::untangle ? tr("Untangle") : tr("Warp");
-        auto* facts = make_label(tr("P%1 · %2D · %3 elements")
-                                     .arg(sample.order)
-                                     .arg(sample.dimension)
-                                     .arg(format_count(sample.elements)),
-                                 "muted");
+        auto* facts = make_label(
+            tr("P%1 · %2D · %3 elements").arg(sample.order).arg(sample.dimension).arg(format_count(sample.elements)),
+            "muted");
         facts->setFont(Theme::small_font());
         auto* title = make_label(sample.title, "title");
         auto* task_label = make_label(task, "");
@@ -69,14 +69,17 @@ class SampleCard : public QFrame {
         if (event->button() == Qt::LeftButton && rect().contains(event->position().toPoint())) choose_();
     }
     void keyPressEvent(QKeyEvent* event) override {
-        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space) choose_();
-        else QFrame::keyPressEvent(event);
+        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space)
+            choose_();
+        else
+            QFrame::keyPressEvent(event);
     }
 
   private:
     QPixmap rounded(const QPixmap& source) const {
         const qreal ratio = devicePixelRatioF();
-        const QPixmap scaled = source.scaled(thumbnail_size * ratio, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
+        const QPixmap scaled =
+            source.scaled(thumbnail_size * ratio, Qt::KeepAspectRatioByExpanding, Qt::SmoothTransformation);
         QPixmap result(thumbnail_size * ratio);
         result.fill(Qt::transparent);
         QPainter painter(&result);
@@ -156,7 +159,8 @@ QWidget* StartPage::make_drop_zone() {
     auto* text = new QVBoxLayout;
     text->setSpacing(4);
     text->addWidget(make_label(tr("Drop a mesh here"), "title"));
-    text->addWidget(make_label(tr("Gmsh .msh and .msh.gz, VTK .vtu and .vtk: triangles and tetrahedra of order 1 to 10"), "muted"));
+    text->addWidget(
+        make_label(tr("Gmsh .msh and .msh.gz, VTK .vtu and .vtk: triangles and tetrahedra of order 1 to 10"), "muted"));
     auto* layout = new QHBoxLayout(drop_zone_);
     layout->setContentsMargins(24, 24, 24, 24);
     layout->setSpacing(16);

@@ -11,7 +11,9 @@
 #include <QStyleFactory>
 #include <QSvgRenderer>
 
-static void load_resources() { Q_INIT_RESOURCE(curvewright); }
+static void load_resources() {
+    Q_INIT_RESOURCE(curvewright);
+}
 
 namespace curvewright {
 namespace {
@@ -124,16 +126,18 @@ QFont Theme::large_font() {
 QString Theme::style_sheet() const {
     QString sheet = QString::fromUtf8(read_resource(QStringLiteral("style.qss")));
     const struct {
-        const char *icon, *line;
-    } images[] = {{"arrow", "text_muted"}, {"arrow_up", "text_muted"}, {"check", "accent_text"}, {"help", "accent"}, {"alert", "warning"}};
+        const char *name, *icon, *line;
+    } images[] = {{"arrow", "arrow", "text_muted"},  {"arrow_up", "arrow_up", "text_muted"},
+                  {"check", "check", "accent_text"}, {"tick", "check", "text"},
+                  {"help", "help", "accent"},        {"alert", "alert", "warning"}};
     for (const auto& image : images) {
-        const QString name = QLatin1String(image.icon);
+        const QString name = QLatin1String(image.name);
         const QString path =
             icon_files_.filePath(QStringLiteral("%1_%2.svg").arg(name, is_dark_ ? QStringLiteral("dark") : QString()));
         QFile file(path);
         if (file.open(QIODevice::WriteOnly)) {
             const QColor line = color(QLatin1String(image.line));
-            file.write(recolored(name, line, line));
+            file.write(recolored(QLatin1String(image.icon), line, line));
         }
         sheet.replace(QRegularExpression(QStringLiteral("@icon_%1\\b").arg(name)), path);
     }

@@ -37,9 +37,12 @@ QIcon swatch(const ElementQuality& quality, const QColor& outline) {
 
 QString describe(Validity validity) {
     switch (validity) {
-        case Validity::valid: return WorstTable::tr("proved valid");
-        case Validity::invalid: return WorstTable::tr("tangled");
-        case Validity::undecided: return WorstTable::tr("undecided");
+        case Validity::valid:
+            return WorstTable::tr("proved valid");
+        case Validity::invalid:
+            return WorstTable::tr("tangled");
+        case Validity::undecided:
+            return WorstTable::tr("undecided");
     }
     return {};
 }

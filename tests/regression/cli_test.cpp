@@ -1,0 +1,273 @@
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "core/io/mesh_io.h"
+#include "core/quality/quality.h"
+#include "tests/regression/process.h"
+
+namespace curvewright {
+namespace {
+
+using testing::ProcessResult;
+using testing::TemporaryFolder;
+using Json = nlohmann::json;
+
+const std::string samples = CURVEWRIGHT_SAMPLES "/";
+const std::string annulus = samples + "annulus/annulus.msh", annulus_deformation = samples + "annulus/deformation.json";
+const std::string circle = samples + "moving_circle/moving_circle.msh",
+                  circle_deformation = samples + "moving_circle/deformation.json";
+
+ProcessResult cli(std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), CURVEWRIGHT_CLI);
+    return testing::run_program(arguments);
+}
+
+void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+
+std::string read(const std::string& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+bool exists(const std::string& file) { return std::filesystem::exists(file); }
+
+class CommandLine : public ::testing::Test {
+  protected:
+    TemporaryFolder folder;
+    std::string tangled = folder / "tangled.msh";
+
+    void make_tangled() {
+        ASSERT_EQ(cli({"deform", annulus, "--deformation", annulus_deformation, "-o", tangled}).status, 0);
+    }
+    /// The command fails with status 1, one line on standard error that holds `fragment`, nothing on standard output.
+    static void expect_bad_input(const std::vector<std::string>& arguments, const std::string& fragment) {
+        const ProcessResult result = cli(arguments);
+        EXPECT_EQ(result.status, 1) << result.errors;
+        EXPECT_NE(result.errors.find(fragment), std::string::npos) << result.errors;
+        EXPECT_EQ(std::count(result.errors.begin(), result.errors.end(), '\n'), 1) << result.errors;
+        EXPECT_TRUE(result.output.empty()) << result.output;
+    }
+};
+
+TEST_F(CommandLine, InfoTellsTypeOrderCountsGroupsOrientationBox) {
+    const ProcessResult result = cli({"info", annulus, "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["mesh"]["dimension"], 2);
+    EXPECT_EQ(json["mesh"]["order"], 3);
+    EXPECT_EQ(json["mesh"]["elements"], 30);
+    EXPECT_EQ(json["mesh"]["nodes"], 159);
+    EXPECT_EQ(json["mesh"]["interior_nodes"], 111);
+    EXPECT_EQ(json["format"], "msh4");
+    EXPECT_EQ(json["orientation"], "positive");
+    EXPECT_EQ(json["cells"]["P3 triangle"], 30);
+    EXPECT_EQ(json["groups"].size(), 3u);
+    EXPECT_EQ(json["groups"][0]["name"], "outer");
+    EXPECT_EQ(json["groups"][0]["nodes"], 30);
+    EXPECT_DOUBLE_EQ(json["bounding_box"][0][0], -1.0);
+    const ProcessResult text = cli({"info", annulus});
+    EXPECT_NE(text.output.find("P3 30 triangles; 159 nodes (111 interior, 48 on the boundary)"), std::string::npos);
+}
+
+TEST_F(CommandLine, QualityCountsTangledElementsAndWritesCsv) {
+    make_tangled();
+    const std::string csv = folder / "q.csv";
+    const ProcessResult result = cli({"quality", tangled, "--json", "--csv", csv});
+    EXPECT_EQ(result.status, 3);
+    EXPECT_TRUE(result.errors.empty()) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_NEAR(json["scaled_jacobian"]["min"].get<double>(), -0.2223, 1e-3);
+    EXPECT_EQ(json["scaled_jacobian"]["invalid"], 2);
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 28);
+    EXPECT_EQ(json["scaled_jacobian"]["undecided"], 0);
+    ASSERT_EQ(json["worst"].size(), 10u);
+    EXPECT_EQ(json["worst"][0]["scaled_jacobian"], json["scaled_jacobian"]["min"]);
+    EXPECT_EQ(json["worst"][0]["center"].size(), 3u);
+    EXPECT_TRUE(json["timings"].contains("certify"));
+    const std::string lines = read(csv);
+    EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 31);
+    EXPECT_EQ(cli({"quality", annulus}).status, 0);
+}
+
+TEST_F(CommandLine, DeformMovesTheBoundaryOnly) {
+    make_tangled();
+    const CurvedMesh before = read_mesh(annulus).mesh, after = read_mesh(tangled).mesh;
+    for (Index node : before.topology().interior_nodes())
+        EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node));
+    const auto inner = before.topology().find_group_nodes("inner").value();
+    for (Index node : inner)
+        EXPECT_NEAR(after.coordinates().row(node).norm(), 0.4, 1e-14);
+    // The deformed mesh serves as a deformation itself, and so does a table of its boundary nodes.
+    const std::string again = folder / "again.msh", table = folder / "table.csv", by_table = folder / "by_table.msh";
+    EXPECT_EQ(cli({"deform", annulus, "--deformation", tangled, "-o", again}).status, 0);
+    EXPECT_EQ(read_mesh(again).mesh.coordinates(), after.coordinates());
+    std::ostringstream rows;
+    rows.precision(17);
+    rows << "tag,x,y,z\n";
+    for (Index node : after.topology().boundary_nodes())
+        rows << after.topology().node_tag(node).value << ',' << after.coordinates()(node, 0) << ','
+             << after.coordinates()(node, 1) << ',' << after.coordinates()(node, 2) << '\n';
+    write(table, rows.str());
+    EXPECT_EQ(cli({"deform", annulus, "--deformation", table, "-o", by_table}).status, 0);
+    EXPECT_EQ(read_mesh(by_table).mesh.coordinates(), after.coordinates());
+}
+
+TEST_F(CommandLine, WarpReportsBeforeAfterAndSolver) {
+    const std::string out = folder / "warped.vtu";
+    for (const char* weights : {"convex", "affine"})
+        for (const char* solver : {"auto", "direct", "iterative"}) {
+            const ProcessResult result = cli({"warp", circle, "--deformation", circle_deformation, "-o", out, "--weights",
+                                              weights, "--solver", solver, "--json"});
+            ASSERT_EQ(result.status, 0) << result.errors;
+            const Json json = Json::parse(result.output);
+            EXPECT_GT(json["scaled_jacobian"]["min"].get<double>(), 0.5);
+            EXPECT_EQ(json["scaled_jacobian"]["invalid"], 0);
+            EXPECT_NEAR(json["before"]["scaled_jacobian"]["min"].get<double>(), 1.0, 1e-6);
+            EXPECT_EQ(json["solver"]["name"], std::string(solver) == "direct" ? "direct" : "iterative");
+            for (const char* phase : {"read", "neighbours", "weights", "solve", "certify", "write", "total"})
+                EXPECT_TRUE(json["timings"].contains(phase)) << phase;
+            EXPECT_EQ(read_mesh(out).mesh.topology().element_count(), 1660);
+        }
+}
+
+TEST_F(CommandLine, UntangleKeepsTheBoundaryAndWritesATrace) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
+    const ProcessResult result =
+        cli({"untangle", tangled, "-o", out, "--method", "signed-angle", "--beta", "0.7", "--json", "--trace", trace});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["before"]["scaled_jacobian"]["invalid"], 2);
+    EXPECT_EQ(json["scaled_jacobian"]["invalid"], 0);
+    EXPECT_NEAR(json["scaled_jacobian"]["min"].get<double>(), 0.456, 5e-3);
+    EXPECT_GT(json["shape"]["min"].get<double>(), 0.5);
+    EXPECT_TRUE(json["timings"].contains("untangle"));
+    const CurvedMesh before = read_mesh(tangled).mesh, after = read_mesh(out).mesh;
+    for (Index node : before.topology().boundary_nodes())
+        EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node));
+    std::istringstream lines(read(trace));
+    int events = 0;
+    for (std::string line; std::getline(lines, line); ++events) EXPECT_TRUE(Json::accept(line));
+    EXPECT_GT(events, 100);
+    // A beta that leaves elements tangled is done, but not valid.
+    const std::string part = CURVEWRIGHT_TEST_DATA "/oracle/mech_ch4.msh";
+    EXPECT_EQ(cli({"untangle", part, "-o", out, "--beta", "1e-6", "--max-passes", "1"}).status, 3);
+}
+
+TEST_F(CommandLine, ElevateKeepsCornersAndGroups) {
+    const std::string out = folder / "p5.msh";
+    ASSERT_EQ(cli({"elevate", annulus, "--order", "5", "-o", out}).status, 0);
+    const CurvedMesh mesh = read_mesh(out).mesh;
+    EXPECT_EQ(mesh.topology().order(), 5);
+    EXPECT_EQ(mesh.topology().element_count(), 30);
+    EXPECT_EQ(mesh.topology().groups().size(), 3u);
+    EXPECT_NEAR(assess_quality(mesh).summary.min, 1.0, 1e-6);
+}
+
+TEST_F(CommandLine, ConvertChangesNothingButTheFormat) {
+    make_tangled();
+    const CurvedMesh original = read_mesh(tangled).mesh;
+    for (const auto& [name, format] : std::vector<std::pair<std::string, std::string>>{
+             {"a.vtu", ""}, {"b.vtk", ""}, {"c.msh", "msh2"}, {"d.msh", "msh4"}, {"e.dat", "vtu"}}) {
+        const std::string out = folder / name;
+        std::vector<std::string> arguments{"convert", tangled, out};
+        if (!format.empty()) arguments.insert(arguments.end(), {"--format", format});
+        ASSERT_EQ(cli(arguments).status, 0) << name;
+        if (name == "e.dat") continue;  // the reader goes by the suffix
+        const CurvedMesh copy = read_mesh(out).mesh;
+        EXPECT_EQ(copy.coordinates(), original.coordinates()) << name;
+        EXPECT_EQ(copy.topology().groups().size(), 3u) << name;
+    }
+    const std::string binary = folder / "binary.vtu";
+    ASSERT_EQ(cli({"convert", tangled, binary, "--binary"}).status, 0);
+    EXPECT_NE(read(binary).find("ScaledJacobian"), std::string::npos);
+    EXPECT_NE(read(binary).find("Validity"), std::string::npos);
+    const std::string flipped = folder / "flipped.msh";
+    ASSERT_EQ(cli({"convert", tangled, flipped, "--flip"}).status, 0);
+    const ProcessResult quality = cli({"quality", flipped, "--json"});
+    EXPECT_EQ(Json::parse(quality.output)["orientation"], "negative");
+    EXPECT_EQ(Json::parse(quality.output)["scaled_jacobian"]["invalid"], 2);
+    EXPECT_NE(quality.errors.find("clockwise"), std::string::npos);
+}
+
+TEST_F(CommandLine, RenderNeedsNoDisplay) {
+    make_tangled();
+    const std::string picture = folder / "picture.png";
+    const ProcessResult result = cli({"render", tangled, "-o", picture, "--size", "320x240"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const std::string bytes = read(picture);
+    ASSERT_GT(bytes.size(), 2000u);
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    const auto big_endian = [&](int at) {
+        return (static_cast<unsigned char>(bytes[at + 2]) << 8) + static_cast<unsigned char>(bytes[at + 3]);
+    };
+    EXPECT_EQ(big_endian(16), 320);
+    EXPECT_EQ(big_endian(20), 240);
+    expect_bad_input({"render", tangled, "-o", folder / "picture.jpg"}, "pictures are written as .png");
+}
+
+TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
+    const std::string out = folder / "out.msh", bad = folder / "bad.msh", deformation = folder / "d.json";
+    expect_bad_input({"quality", folder / "missing.msh"}, "missing.msh");
+    write(bad, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 2 1 2\n2 1 0 2\n1\n2\n0 0 0\n1 zero 0\n$EndNodes\n");
+    expect_bad_input({"quality", bad}, "bad.msh:10: ");
+    write(deformation, R"({"operations": [{"group": "wing", "type": "translate", "vector": [1, 0, 0]}]})");
+    expect_bad_input({"deform", annulus, "--deformation", deformation, "-o", out}, "there is no group 'wing'");
+    write(deformation, R"({"operations": [{"group": "inner", "type": "twist"}]})");
+    expect_bad_input({"warp", annulus, "--deformation", deformation, "-o", out, "--quiet"}, "twist");
+    expect_bad_input({"elevate", annulus, "--order", "11", "-o", out}, "orders 1 to 10");
+    expect_bad_input({"untangle", circle, "-o", out, "--beta", "7"}, "beta is 7");
+    const std::string p4 = folder / "p4.msh";
+    ASSERT_EQ(cli({"elevate", annulus, "--order", "4", "-o", p4}).status, 0);
+    expect_bad_input({"untangle", p4, "-o", out}, "order 2 or 3; this mesh has P4 triangle elements");
+    expect_bad_input({"convert", annulus, folder / "out.stl"}, "out.stl");
+    expect_bad_input({"convert", annulus, folder / "no/such/folder/out.msh"}, "no/such/folder/out.msh");
+    EXPECT_FALSE(exists(out));
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+        EXPECT_TRUE(entry.path() == bad || entry.path() == deformation || entry.path() == p4)
+            << "left behind: " << entry.path();
+}
+
+TEST_F(CommandLine, FailedCommandLeavesAnExistingOutputAlone) {
+    const std::string out = folder / "out.msh", deformation = folder / "d.json";
+    write(out, "precious");
+    write(deformation, R"({"operations": [{"group": "inner", "type": "scale"}]})");
+    EXPECT_EQ(cli({"deform", annulus, "--deformation", deformation, "-o", out}).status, 1);
+    EXPECT_EQ(read(out), "precious");
+}
+
+TEST_F(CommandLine, WrongUsageEndsWithTwo) {
+    for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
+             {},
+             {"frobnicate"},
+             {"quality"},
+             {"quality", annulus, "--nonsense"},
+             {"quality", annulus, "--tolerance", "-1"},
+             {"warp", annulus, "-o", "x.msh"},
+             {"warp", annulus, "--deformation", annulus_deformation, "-o", "x.msh", "--weights", "heavy"},
+             {"untangle", annulus, "-o", "x.msh", "--method", "magic"},
+             {"render", annulus, "-o", "x.png", "--size", "big"},
+             {"elevate", annulus, "-o", "x.msh"}}) {
+        const ProcessResult result = cli(arguments);
+        EXPECT_EQ(result.status, 2) << (arguments.empty() ? "" : arguments.back());
+        EXPECT_FALSE(result.errors.empty() && result.output.empty());
+    }
+    EXPECT_EQ(cli({"--help"}).status, 0);
+    EXPECT_EQ(cli({"warp", "--help"}).status, 0);
+    EXPECT_EQ(cli({"--version"}).status, 0);
+}
+
+TEST_F(CommandLine, ThreadCountDoesNotChangeTheResult) {
+    const std::string one = folder / "one.msh", two = folder / "two.msh";
+    ASSERT_EQ(cli({"warp", circle, "--deformation", circle_deformation, "-o", one, "--threads", "1"}).status, 0);
+    ASSERT_EQ(cli({"warp", circle, "--deformation", circle_deformation, "-o", two, "--threads", "2"}).status, 0);
+    EXPECT_EQ(read(one), read(two));
+}
+
+}  // namespace
+}  // namespace curvewright
