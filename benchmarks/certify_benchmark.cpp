@@ -19,10 +19,18 @@ void certify(benchmark::State& state, Shape shape, double amplitude) {
     state.SetItemsProcessed(state.iterations());
 }
 
-void straight_triangles(benchmark::State& state) { certify(state, Shape::triangle, 0.0); }
-void curved_triangles(benchmark::State& state) { certify(state, Shape::triangle, 0.1); }
-void straight_tetrahedra(benchmark::State& state) { certify(state, Shape::tetrahedron, 0.0); }
-void curved_tetrahedra(benchmark::State& state) { certify(state, Shape::tetrahedron, 0.1); }
+void straight_triangles(benchmark::State& state) {
+    certify(state, Shape::triangle, 0.0);
+}
+void curved_triangles(benchmark::State& state) {
+    certify(state, Shape::triangle, 0.1);
+}
+void straight_tetrahedra(benchmark::State& state) {
+    certify(state, Shape::tetrahedron, 0.0);
+}
+void curved_tetrahedra(benchmark::State& state) {
+    certify(state, Shape::tetrahedron, 0.1);
+}
 
 BENCHMARK(straight_triangles)->DenseRange(1, 6)->Arg(10);
 BENCHMARK(curved_triangles)->DenseRange(2, 6);

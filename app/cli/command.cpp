@@ -2,7 +2,6 @@
 
 #include <map>
 
-
 namespace curvewright::cli {
 
 WriteOptions OutputOptions::write_options(const QualityReport* quality, const Coordinates* reference) const {
@@ -35,6 +34,16 @@ void add_output_options(CLI::App& command, OutputOptions& options, bool is_posit
             "Format, whatever the suffix says: msh2, msh4, vtu or vtk")
         ->check(CLI::IsMember({"msh2", "msh4", "vtu", "vtk"}));
     command.add_flag("--binary", options.binary, "Binary instead of text (vtu, vtk)");
+}
+
+void add_input_option(CLI::App& command, std::filesystem::path& file, const std::string& placeholder) {
+    command.add_option("mesh", file, "Mesh (.msh, .msh.gz, .vtu, .vtk)")->required()->type_name(placeholder);
+}
+
+void add_deformation_option(CLI::App& command, std::filesystem::path& file) {
+    command.add_option("--deformation", file, "Operations (.json), node table (.csv) or a mesh")
+        ->required()
+        ->type_name("D");
 }
 
 }  // namespace curvewright::cli

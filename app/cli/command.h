@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -42,6 +43,22 @@ struct OutputOptions {
 CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& name, const std::string& description);
 /// Adds -o/--output (or a positional, for convert), --format and --binary.
 void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
+
+/// Adds the input mesh, a required positional.
+void add_input_option(CLI::App& command, std::filesystem::path& file, const std::string& placeholder = "IN");
+/// Adds --deformation, required.
+void add_deformation_option(CLI::App& command, std::filesystem::path& file);
+
+/// Makes run(options, …) what happens when the command is chosen. options is filled by the command's options.
+template <class Options>
+void set_action(CLI::App& command, Invocation& invocation, std::shared_ptr<Options> options,
+                int (*run)(const Options&, const Invocation&, const TaskContext&)) {
+    command.callback([&invocation, options, run] {
+        invocation.action = [options, run](const Invocation& i, const TaskContext& context) {
+            return run(*options, i, context);
+        };
+    });
+}
 
 // One per file.
 void add_info(CLI::App& app, Invocation& invocation);

@@ -20,14 +20,13 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const Stopwatch elevating;
     const CurvedMesh mesh = elevate(input, options.order);
     timings["elevate"] = elevating.seconds();
-    std::optional<QualityReport> quality;
-    if (is_assessable(mesh)) quality = certify(mesh, context, timings);
+    const auto quality = certify_for(options.output, mesh, context, timings);
     write_output(options.output, mesh, quality ? &*quality : nullptr, nullptr, timings);
     finish_timings(timings, watch);
     if (invocation.common.json)
-        fmt::print("{}\n",
-                   Json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}}).dump(2));
-    else fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
+        fmt::print("{}\n", Json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}}).dump(2));
+    else
+        fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
     return exit_done;
 }
 
@@ -36,14 +35,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_elevate(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "elevate", "Straight-sided mesh of another order on the same corners");
     auto options = std::make_shared<Options>();
-    command->add_option("mesh", options->mesh, "Mesh")->required()->type_name("IN");
+    add_input_option(*command, options->mesh);
     command->add_option("--order", options->order, "Order of the result, 1 to 10")->required()->type_name("P");
     add_output_options(*command, options->output);
-    command->callback([&invocation, options] {
-        invocation.action = [options](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
-        };
-    });
+    set_action(*command, invocation, options, run);
 }
 
 }  // namespace curvewright::cli

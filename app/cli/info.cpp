@@ -13,7 +13,8 @@ long cells_of_group(const MeshTopology& topology, const PhysicalGroup& group) {
     long count = 0;
     for (const Entity& entity : topology.entities()) {
         if (entity.dimension != group.dimension) continue;
-        if (std::find(entity.physical_tags.begin(), entity.physical_tags.end(), group.tag) == entity.physical_tags.end())
+        if (std::find(entity.physical_tags.begin(), entity.physical_tags.end(), group.tag) ==
+            entity.physical_tags.end())
             continue;
         for (const ElementBlock& block : topology.blocks())
             if (dimension(block.type.shape) == group.dimension && block.entity_tag == entity.tag) count += block.size();
@@ -61,8 +62,8 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
     fmt::print("  {}D, order {}: {}\n", topology.dimension(), topology.order(), mesh_line(mesh));
     for (const auto& [type, count] : types.items()) fmt::print("  cells        {} {}\n", count.get<long>(), type);
     fmt::print("  orientation  {}\n", orientation);
-    fmt::print("  box          [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]\n", box(0, 0), box(1, 0), box(0, 1),
-               box(1, 1), box(0, 2), box(1, 2));
+    fmt::print("  box          [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]\n", box(0, 0), box(1, 0),
+               box(0, 1), box(1, 1), box(0, 2), box(1, 2));
     for (const Json& group : groups)
         fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
                    group["name"].get<std::string>().empty() ? "unnamed" : group["name"].get<std::string>(),
@@ -76,10 +77,8 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
 void add_info(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "info", "Type, order, counts, groups, orientation, bounding box");
     auto file = std::make_shared<std::filesystem::path>();
-    command->add_option("mesh", *file, "Mesh (.msh, .vtu, .vtk)")->required()->type_name("MESH");
-    command->callback([&invocation, file] {
-        invocation.action = [file](const Invocation& i, const TaskContext& context) { return run(*file, i, context); };
-    });
+    add_input_option(*command, *file, "MESH");
+    set_action(*command, invocation, file, run);
 }
 
 }  // namespace curvewright::cli

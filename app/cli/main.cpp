@@ -2,8 +2,8 @@
 #include <cstdio>
 #include <exception>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
@@ -17,7 +17,9 @@ using namespace curvewright::cli;
 
 std::stop_source interrupt;
 
-void on_interrupt(int) { interrupt.request_stop(); }
+void on_interrupt(int) {
+    interrupt.request_stop();
+}
 
 int run(const Invocation& invocation) {
     set_thread_count(invocation.common.threads);
@@ -33,8 +35,9 @@ int main(int argc, char** argv) {
     CLI::App app("Warps, untangles, certifies and converts curved high-order meshes.", "curvewright-cli");
     app.set_version_flag("--version", CURVEWRIGHT_VERSION);
     app.require_subcommand(1);
-    app.footer("Exit status: 0 done; 1 bad input or a file that cannot be used; 2 wrong usage; 3 done, but elements are "
-               "invalid or undecided.");
+    app.footer(
+        "Exit status: 0 done; 1 bad input or a file that cannot be used; 2 wrong usage; 3 done, but elements are "
+        "invalid or undecided.");
     Invocation invocation;
     add_info(app, invocation);
     add_quality(app, invocation);

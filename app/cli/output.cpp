@@ -11,17 +11,14 @@ namespace curvewright::cli {
 
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh) {
     const MeshTopology& topology = mesh.topology();
-    return {{"file", file.string()},
-            {"dimension", topology.dimension()},
-            {"order", topology.order()},
-            {"elements", topology.element_count()},
-            {"nodes", topology.node_count()},
-            {"interior_nodes", topology.interior_nodes().size()}};
+    return {{"file", file.string()},          {"dimension", topology.dimension()},
+            {"order", topology.order()},      {"elements", topology.element_count()},
+            {"nodes", topology.node_count()}, {"interior_nodes", topology.interior_nodes().size()}};
 }
 
 Json summary_json(const QualitySummary& summary) {
-    return {{"min", summary.min},         {"mean", summary.mean},       {"max", summary.max},
-            {"valid", summary.valid},     {"invalid", summary.invalid}, {"undecided", summary.undecided}};
+    return {{"min", summary.min},     {"mean", summary.mean},       {"max", summary.max},
+            {"valid", summary.valid}, {"invalid", summary.invalid}, {"undecided", summary.undecided}};
 }
 
 Json worst_json(const CurvedMesh& mesh, const QualityReport& report) {
@@ -48,9 +45,10 @@ std::string mesh_line(const CurvedMesh& mesh) {
 }
 
 std::string summary_line(const QualitySummary& summary) {
-    return fmt::format("scaled Jacobian (min J / max J): min {:.4g}, mean {:.4g}, max {:.4g}; {} valid, {} invalid, {} "
-                       "undecided",
-                       summary.min, summary.mean, summary.max, summary.valid, summary.invalid, summary.undecided);
+    return fmt::format(
+        "scaled Jacobian (min J / max J): min {:.4g}, mean {:.4g}, max {:.4g}; {} valid, {} invalid, {} "
+        "undecided",
+        summary.min, summary.mean, summary.max, summary.valid, summary.invalid, summary.undecided);
 }
 
 ReadResult read_input(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context,
@@ -80,6 +78,14 @@ bool is_assessable(const CurvedMesh& mesh) {
     }
 }
 
+std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
+                                         const TaskContext& context, Json& timings) {
+    const auto format = output.format ? output.format : format_of_suffix(output.file);
+    const bool has_place = format == MeshFormat::vtu || format == MeshFormat::vtk;
+    if (!has_place || !is_assessable(mesh)) return std::nullopt;
+    return certify(mesh, context, timings);
+}
+
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
                   const Coordinates* reference, Json& timings) {
     const Stopwatch watch;
@@ -87,16 +93,20 @@ void write_output(const OutputOptions& output, const CurvedMesh& mesh, const Qua
     timings["write"] = watch.seconds();
 }
 
-void finish_timings(Json& timings, const Stopwatch& watch) { timings["total"] = watch.seconds(); }
+void finish_timings(Json& timings, const Stopwatch& watch) {
+    timings["total"] = watch.seconds();
+}
 
 void warn_about_orientation(const QualityReport& report, const Invocation& invocation) {
     if (invocation.common.quiet) return;
     if (report.orientation == Orientation::negative)
-        fmt::print(stderr, "All elements are numbered clockwise (negative orientation). They are judged the other way "
-                           "round; 'convert --flip' renumbers them.\n");
+        fmt::print(stderr,
+                   "All elements are numbered clockwise (negative orientation). They are judged the other way "
+                   "round; 'convert --flip' renumbers them.\n");
     if (report.orientation == Orientation::mixed)
-        fmt::print(stderr, "Some elements are numbered the other way round than the others: their straight-sided "
-                           "versions have negative volume.\n");
+        fmt::print(stderr,
+                   "Some elements are numbered the other way round than the others: their straight-sided "
+                   "versions have negative volume.\n");
 }
 
 int validity_status(const QualitySummary& summary) {

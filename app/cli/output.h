@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -34,6 +35,10 @@ QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& 
                       const QualityOptions& options = {});
 /// Whether the quality of the mesh can be assessed at all.
 bool is_assessable(const CurvedMesh& mesh);
+/// The quality that belongs in the output: none for MSH, which has no place for it, and for meshes that are not
+/// assessable.
+std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
+                                         const TaskContext& context, Json& timings);
 /// Writes the mesh, timed as "write". quality may be null.
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
                   const Coordinates* reference, Json& timings);

@@ -7,8 +7,8 @@
 
 namespace curvewright::cli {
 
-/// Progress on standard error: a bar that rewrites itself where that is a terminal, else one line per phase of tasks that
-/// have been running for a second. The destructor clears the bar.
+/// Progress on standard error: a bar that rewrites itself where that is a terminal, else one line per phase of tasks
+/// that have been running for a second. The destructor clears the bar.
 class ProgressBar {
   public:
     explicit ProgressBar(bool is_quiet);

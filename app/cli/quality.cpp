@@ -59,17 +59,12 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_quality(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "quality", "Certified scaled Jacobian (min J / max J) per element");
     auto options = std::make_shared<Options>();
-    command->add_option("mesh", options->mesh, "Mesh of triangles or tetrahedra")->required()->type_name("MESH");
+    add_input_option(*command, options->mesh, "MESH");
     command->add_option("--csv", options->csv, "Write one line per element to this file")->type_name("FILE");
-    command
-        ->add_option("--tolerance", options->quality.tolerance, "Width of the bounds of J, relative to max |J|")
+    command->add_option("--tolerance", options->quality.tolerance, "Width of the bounds of J, relative to max |J|")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
-    command->callback([&invocation, options] {
-        invocation.action = [options](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
-        };
-    });
+    set_action(*command, invocation, options, run);
 }
 
 }  // namespace curvewright::cli

@@ -47,13 +47,14 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     timings["render"] = rendering.seconds();
     finish_timings(timings, watch);
     if (invocation.common.json)
-        fmt::print("{}\n", Json({{"mesh", mesh_json(options.mesh, mesh)},
-                                 {"picture", {{"file", options.output.string()},
-                                              {"width", options.width},
-                                              {"height", options.height}}},
-                                 {"timings", timings}})
-                               .dump(2));
-    else fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
+        fmt::print("{}\n",
+                   Json({{"mesh", mesh_json(options.mesh, mesh)},
+                         {"picture",
+                          {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
+                         {"timings", timings}})
+                       .dump(2));
+    else
+        fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
     return exit_done;
 }
 
@@ -62,16 +63,17 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_render(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "render", "Picture of the mesh, coloured by scaled Jacobian");
     auto options = std::make_shared<Options>();
-    command->add_option("mesh", options->mesh, "Mesh")->required()->type_name("MESH");
+    add_input_option(*command, options->mesh, "MESH");
     command->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("PNG");
     command->add_option("--size", "Size in pixels (default 1200x900)")
         ->type_name("WxH")
         ->check([options](const std::string& text) { return parse_size(text, *options); });
     command->add_flag("--nodes", options->scene.show_nodes, "Draw the nodes");
-    command->add_flag_function("--no-edges", [options](std::int64_t) { options->scene.show_edges = false; },
-                               "Leave out the edges of the elements");
-    command->add_flag_function("--no-legend", [options](std::int64_t) { options->scene.show_legend = false; },
-                               "Leave out the legend");
+    command->add_flag_function(
+        "--no-edges", [options](std::int64_t) { options->scene.show_edges = false; },
+        "Leave out the edges of the elements");
+    command->add_flag_function(
+        "--no-legend", [options](std::int64_t) { options->scene.show_legend = false; }, "Leave out the legend");
     command
         ->add_option_function<std::string>(
             "--clip",
@@ -83,11 +85,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
             },
             "3D: hide the half of the elements beyond the middle in x, y or z")
         ->check(CLI::IsMember({"x", "y", "z"}));
-    command->callback([&invocation, options] {
-        invocation.action = [options](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
-        };
-    });
+    set_action(*command, invocation, options, run);
 }
 
 }  // namespace curvewright::cli

@@ -37,7 +37,9 @@ class TraceFile {
     TraceWriter writer_;
 };
 
-Json shape_json(const ShapeSummary& shape) { return {{"min", shape.min}, {"mean", shape.mean}}; }
+Json shape_json(const ShapeSummary& shape) {
+    return {{"min", shape.min}, {"mean", shape.mean}};
+}
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     const Stopwatch watch;
@@ -60,17 +62,17 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     finish_timings(timings, watch);
 
     if (invocation.common.json) {
-        const Json json = {{"mesh", mesh_json(options.output.file, mesh)},
-                           {"method", "signed-angle"},
-                           {"beta", options.signed_angles.beta},
-                           {"passes", result.passes},
-                           {"stopped", to_string(result.reason)},
-                           {"scaled_jacobian", summary_json(after.summary)},
-                           {"shape", shape_json(shape)},
-                           {"before",
-                            {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
-                           {"worst", worst_json(mesh, after)},
-                           {"timings", timings}};
+        const Json json = {
+            {"mesh", mesh_json(options.output.file, mesh)},
+            {"method", "signed-angle"},
+            {"beta", options.signed_angles.beta},
+            {"passes", result.passes},
+            {"stopped", to_string(result.reason)},
+            {"scaled_jacobian", summary_json(after.summary)},
+            {"shape", shape_json(shape)},
+            {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
+            {"worst", worst_json(mesh, after)},
+            {"timings", timings}};
         fmt::print("{}\n", json.dump(2));
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
@@ -86,7 +88,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_untangle(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "untangle", "Make invalid elements valid; the boundary stays");
     auto options = std::make_shared<Options>();
-    command->add_option("mesh", options->mesh, "Mesh of triangles, order 2 or 3")->required()->type_name("IN");
+    add_input_option(*command, options->mesh);
     add_output_options(*command, options->output);
     command->add_option("--method", "signed-angle (default)")->check(CLI::IsMember({"signed-angle"}));
     command
@@ -98,11 +100,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
                       "Take back a pass that lowers the certified quality, and stop there");
     command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")
         ->type_name("FILE.jsonl");
-    command->callback([&invocation, options] {
-        invocation.action = [options](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
-        };
-    });
+    set_action(*command, invocation, options, run);
 }
 
 }  // namespace curvewright::cli

@@ -81,10 +81,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_warp(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "warp", "Move the boundary and let the interior follow");
     auto options = std::make_shared<Options>();
-    command->add_option("mesh", options->mesh, "Mesh")->required()->type_name("IN");
-    command->add_option("--deformation", options->deformation, "Operations (.json), node table (.csv) or a mesh")
-        ->required()
-        ->type_name("D");
+    add_input_option(*command, options->mesh);
+    add_deformation_option(*command, options->deformation);
     add_output_options(*command, options->output);
     command
         ->add_option_function<std::string>(
@@ -109,11 +107,7 @@ void add_warp(CLI::App& app, Invocation& invocation) {
             },
             "auto (default: iterative, direct if that fails), direct or iterative")
         ->check(CLI::IsMember({"auto", "direct", "iterative"}));
-    command->callback([&invocation, options] {
-        invocation.action = [options](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
-        };
-    });
+    set_action(*command, invocation, options, run);
 }
 
 }  // namespace curvewright::cli

@@ -16,8 +16,8 @@ void set_thread_count(int threads) {
     static std::unique_ptr<tbb::global_control> control;
     static std::mutex mutex;
     const std::lock_guard lock(mutex);
-    const auto count =
-        threads > 0 ? static_cast<std::size_t>(threads) : std::size_t{std::max(1u, std::thread::hardware_concurrency())};
+    const auto count = threads > 0 ? static_cast<std::size_t>(threads)
+                                   : std::size_t{std::max(1u, std::thread::hardware_concurrency())};
     control.reset();
     control = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
 }

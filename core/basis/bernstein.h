@@ -9,9 +9,10 @@
 
 namespace curvewright {
 
-/// Index set of the Bernstein polynomials of one degree on a simplex of dimension 1 to 3, and the tables of the operations
-/// on their coefficients. A polynomial is sum_a c_a B_a with B_a = (n! / prod a_i!) prod lambda_i^a_i over the multi-indices
-/// a = (a_0, …, a_dim) of sum n. Farin, "Curves and Surfaces for CAGD", ch. 17. Immutable; built once per (dim, degree).
+/// Index set of the Bernstein polynomials of one degree on a simplex of dimension 1 to 3, and the tables of the
+/// operations on their coefficients. A polynomial is sum_a c_a B_a with B_a = (n! / prod a_i!) prod lambda_i^a_i over
+/// the multi-indices a = (a_0, …, a_dim) of sum n. Farin, "Curves and Surfaces for CAGD", ch. 17. Immutable; built once
+/// per (dim, degree).
 class BernsteinSimplex {
   public:
     static const BernsteinSimplex& get(int dimension, int degree);

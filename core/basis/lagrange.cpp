@@ -59,14 +59,21 @@ void simplex_functions(int order, int dim, const std::vector<LatticePoint>& latt
 /// How an element's lattice is a product of simplices: the reference axes of each factor.
 std::vector<std::vector<int>> tensor_factors(Shape shape) {
     switch (shape) {
-        case Shape::line: return {{0}};
-        case Shape::triangle: return {{0, 1}};
-        case Shape::tetrahedron: return {{0, 1, 2}};
-        case Shape::quadrilateral: return {{0}, {1}};
-        case Shape::hexahedron: return {{0}, {1}, {2}};
-        case Shape::prism: return {{0, 1}, {2}};
+        case Shape::line:
+            return {{0}};
+        case Shape::triangle:
+            return {{0, 1}};
+        case Shape::tetrahedron:
+            return {{0, 1, 2}};
+        case Shape::quadrilateral:
+            return {{0}, {1}};
+        case Shape::hexahedron:
+            return {{0}, {1}, {2}};
+        case Shape::prism:
+            return {{0, 1}, {2}};
         case Shape::vertex:
-        case Shape::pyramid: break;
+        case Shape::pyramid:
+            break;
     }
     return {};
 }

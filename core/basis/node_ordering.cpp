@@ -10,10 +10,18 @@ namespace {
 
 using Points = std::vector<LatticePoint>;
 
-LatticePoint operator+(LatticePoint a, LatticePoint b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-LatticePoint operator-(LatticePoint a, LatticePoint b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-LatticePoint operator*(LatticePoint a, int factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
-LatticePoint operator/(LatticePoint a, int divisor) { return {a[0] / divisor, a[1] / divisor, a[2] / divisor}; }
+LatticePoint operator+(LatticePoint a, LatticePoint b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+LatticePoint operator-(LatticePoint a, LatticePoint b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+LatticePoint operator*(LatticePoint a, int factor) {
+    return {a[0] * factor, a[1] * factor, a[2] * factor};
+}
+LatticePoint operator/(LatticePoint a, int divisor) {
+    return {a[0] / divisor, a[1] / divisor, a[2] / divisor};
+}
 
 /// The interior points of the lattice line a -> b that has `order` steps.
 void append_edge(Points& out, LatticePoint a, LatticePoint b, int order) {
@@ -70,7 +78,6 @@ void append_grid_interior(Points& out, LatticePoint origin, LatticePoint u, Latt
         for (int i = 1; i < order; ++i) out.push_back(origin + u * i + v * j);
 }
 
-
 void append_tetrahedron(Points& out, const std::array<LatticePoint, 4>& v, int order,
                         const std::vector<std::array<int, 2>>& edges, const std::vector<std::array<int, 3>>& faces) {
     if (order < 0) return;
@@ -91,8 +98,8 @@ void append_tetrahedron(Points& out, const std::array<LatticePoint, 4>& v, int o
 }
 
 Points vtk_hexahedron(int p) {
-    const std::array<LatticePoint, 8> v = {{{0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0},
-                                            {0, 0, p}, {p, 0, p}, {p, p, p}, {0, p, p}}};
+    const std::array<LatticePoint, 8> v = {
+        {{0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0}, {0, 0, p}, {p, 0, p}, {p, p, p}, {0, p, p}}};
     Points out(v.begin(), v.end());
     for (const auto& [a, b] : std::vector<std::array<int, 2>>{
              {0, 1}, {1, 2}, {3, 2}, {0, 3}, {4, 5}, {5, 6}, {7, 6}, {4, 7}, {0, 4}, {1, 5}, {2, 6}, {3, 7}})
@@ -135,8 +142,8 @@ void append_gmsh_hexahedron(Points& out, LatticePoint origin, int p) {
         out.push_back(origin);
         return;
     }
-    std::array<LatticePoint, 8> v = {{{0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0},
-                                      {0, 0, p}, {p, 0, p}, {p, p, p}, {0, p, p}}};
+    std::array<LatticePoint, 8> v = {
+        {{0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0}, {0, 0, p}, {p, 0, p}, {p, p, p}, {0, p, p}}};
     for (auto& corner : v) corner = corner + origin;
     out.insert(out.end(), v.begin(), v.end());
     for (const auto& [a, b] : std::vector<std::array<int, 2>>{
@@ -209,9 +216,12 @@ std::vector<LatticePoint> vtk_node_order(ElementType type) {
                                {{0, 1}, {1, 2}, {2, 0}, {0, 3}, {1, 3}, {2, 3}},
                                {{0, 1, 3}, {2, 3, 1}, {0, 3, 2}, {0, 2, 1}});
             return out;
-        case Shape::hexahedron: return vtk_hexahedron(p);
-        case Shape::prism: return vtk_prism(p);
-        default: return gmsh_node_order(type);  // vertex, line, triangle: the two agree
+        case Shape::hexahedron:
+            return vtk_hexahedron(p);
+        case Shape::prism:
+            return vtk_prism(p);
+        default:
+            return gmsh_node_order(type);  // vertex, line, triangle: the two agree
     }
 }
 
@@ -219,12 +229,15 @@ std::vector<LatticePoint> gmsh_node_order(ElementType type) {
     const int p = type.order;
     Points out;
     switch (type.shape) {
-        case Shape::vertex: return {{0, 0, 0}};
+        case Shape::vertex:
+            return {{0, 0, 0}};
         case Shape::line:
             out = {{0, 0, 0}, {p, 0, 0}};
             append_edge(out, out[0], out[1], p);
             return out;
-        case Shape::triangle: append_triangle(out, {0, 0, 0}, {p, 0, 0}, {0, p, 0}, p); return out;
+        case Shape::triangle:
+            append_triangle(out, {0, 0, 0}, {p, 0, 0}, {0, p, 0}, p);
+            return out;
         case Shape::quadrilateral:
             append_quadrilateral_recursive(out, {0, 0, 0}, {p, 0, 0}, {p, p, 0}, {0, p, 0}, p);
             return out;
@@ -233,9 +246,14 @@ std::vector<LatticePoint> gmsh_node_order(ElementType type) {
                                {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {3, 2}, {3, 1}},
                                {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {3, 1, 2}});
             return out;
-        case Shape::hexahedron: append_gmsh_hexahedron(out, {0, 0, 0}, p); return out;
-        case Shape::prism: return gmsh_prism(p);
-        case Shape::pyramid: append_gmsh_pyramid(out, {0, 0, 0}, p); return out;
+        case Shape::hexahedron:
+            append_gmsh_hexahedron(out, {0, 0, 0}, p);
+            return out;
+        case Shape::prism:
+            return gmsh_prism(p);
+        case Shape::pyramid:
+            append_gmsh_pyramid(out, {0, 0, 0}, p);
+            return out;
     }
     return out;
 }

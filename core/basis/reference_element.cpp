@@ -29,14 +29,22 @@ const SubShapes& sub_shapes(Shape shape) {
     static const SubShapes pyramid{{{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}},
                                    {{0, 3, 2, 1}, {0, 1, 4}, {1, 2, 4}, {2, 3, 4}, {3, 0, 4}}};
     switch (shape) {
-        case Shape::vertex: return none;
-        case Shape::line: return line;
-        case Shape::triangle: return triangle;
-        case Shape::quadrilateral: return quadrilateral;
-        case Shape::tetrahedron: return tetrahedron;
-        case Shape::hexahedron: return hexahedron;
-        case Shape::prism: return prism;
-        case Shape::pyramid: return pyramid;
+        case Shape::vertex:
+            return none;
+        case Shape::line:
+            return line;
+        case Shape::triangle:
+            return triangle;
+        case Shape::quadrilateral:
+            return quadrilateral;
+        case Shape::tetrahedron:
+            return tetrahedron;
+        case Shape::hexahedron:
+            return hexahedron;
+        case Shape::prism:
+            return prism;
+        case Shape::pyramid:
+            return pyramid;
     }
     return none;
 }

@@ -2,8 +2,8 @@
 #include <numbers>
 #include <set>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/base/error.h"
 #include "core/deform/deformation.h"
@@ -15,7 +15,9 @@ namespace {
 
 using Point = Eigen::RowVector3d;
 
-Point to_point(const Vector3& v) { return {v[0], v[1], v[2]}; }
+Point to_point(const Vector3& v) {
+    return {v[0], v[1], v[2]};
+}
 
 /// Every kind of operation as a function of one point. Compiled once per operation, called for each node.
 class PointMap {
@@ -116,9 +118,10 @@ void apply_table(const CurvedMesh& mesh, const NodeTable& table, const std::stri
     if (!table.is_mesh) return;
     for (Index node : topology.boundary_nodes())
         if (!is_given[node])
-            throw InvalidInput(fmt::format("{}boundary node {} of the mesh has no position there; the deformed mesh must "
-                                           "have the same node tags.",
-                                           where, topology.node_tag(node).value));
+            throw InvalidInput(
+                fmt::format("{}boundary node {} of the mesh has no position there; the deformed mesh must "
+                            "have the same node tags.",
+                            where, topology.node_tag(node).value));
 }
 
 }  // namespace

@@ -58,7 +58,8 @@ struct SnapToEllipse {
     Vector3 center{};
     double semi_axis_x = 1.0, semi_axis_y = 1.0;
 };
-/// Closest point on a symmetric four-digit NACA profile (NACA 0012 by default) with closed trailing edge, chord along +x.
+/// Closest point on a symmetric four-digit NACA profile (NACA 0012 by default) with closed trailing edge, chord along
+/// +x.
 struct SnapToNaca {
     Vector3 leading_edge{};
     double chord = 1.0;

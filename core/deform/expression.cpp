@@ -12,8 +12,12 @@
 namespace curvewright {
 namespace {
 
-double minimum(const double* values, int count) { return *std::min_element(values, values + count); }
-double maximum(const double* values, int count) { return *std::max_element(values, values + count); }
+double minimum(const double* values, int count) {
+    return *std::min_element(values, values + count);
+}
+double maximum(const double* values, int count) {
+    return *std::max_element(values, values + count);
+}
 
 }  // namespace
 
@@ -47,23 +51,24 @@ CompiledExpression::CompiledExpression(const std::string& formula) : parser_(std
     parser.DefineFun("min", &minimum);
     parser.DefineFun("max", &maximum);
     // The library also knows assignments, comparisons and ?:, which the file format does not.
-    const auto stranger = formula.find_first_not_of(
-        "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-*/^(), \t\r\n");
+    const auto stranger =
+        formula.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_.+-*/^(), \t\r\n");
     try {
         if (stranger != std::string::npos)
-            throw mu::Parser::exception_type(fmt::format("unexpected character '{}' at position {}", formula[stranger],
-                                                         stranger + 1));
+            throw mu::Parser::exception_type(
+                fmt::format("unexpected character '{}' at position {}", formula[stranger], stranger + 1));
         parser.SetExpr(formula);
         if (parser.Eval(), parser.GetNumResults() != 1)
-            throw InvalidInput(fmt::format("the expression '{}' has {} values; one is expected", formula,
-                                           parser.GetNumResults()));
+            throw InvalidInput(
+                fmt::format("the expression '{}' has {} values; one is expected", formula, parser.GetNumResults()));
     } catch (const mu::Parser::exception_type& error) {
         std::string message = error.GetMsg();
         while (!message.empty() && (message.back() == '.' || message.back() == '\n')) message.pop_back();
-        throw InvalidInput(fmt::format(
-            "the expression '{}' is wrong ({}); it may use x, y, z, pi, + - * / ^, parentheses and the functions sin cos "
-            "tan asin acos atan sqrt exp log abs min max",
-            formula, message));
+        throw InvalidInput(
+            fmt::format("the expression '{}' is wrong ({}); it may use x, y, z, pi, + - * / ^, parentheses and the "
+                        "functions sin cos "
+                        "tan asin acos atan sqrt exp log abs min max",
+                        formula, message));
     }
 }
 

@@ -5,7 +5,8 @@
 
 namespace curvewright {
 
-/// A formula in x, y, z and pi with + - * / ^, parentheses, sin cos tan asin acos atan sqrt exp log (natural) abs min max.
+/// A formula in x, y, z and pi with + - * / ^, parentheses, sin cos tan asin acos atan sqrt exp log (natural) abs min
+/// max.
 class CompiledExpression {
   public:
     /// Throws InvalidInput with the formula, the position of the fault and what was expected.

@@ -16,7 +16,9 @@ namespace {
 
 using Point = Eigen::RowVector3d;
 
-Point to_point(const Vector3& v) { return {v[0], v[1], v[2]}; }
+Point to_point(const Vector3& v) {
+    return {v[0], v[1], v[2]};
+}
 
 /// A plane curve (u -> position) with its first two derivatives.
 struct CurvePoint {
@@ -50,9 +52,9 @@ double closest_parameter(const std::function<CurvePoint(double)>& curve, const E
     return (curve(u).position - target).squaredNorm() <= best_distance ? u : best;
 }
 
-/// Half thickness of a four-digit NACA profile of unit chord as a polynomial in u = sqrt(s), s the fraction of the chord:
-/// 5 t (.2969 u - .126 u^2 - .3516 u^4 + .2843 u^6 - .1036 u^8), whose trailing edge is closed (Jacobs, Ward, Pinkerton,
-/// NACA report 460, 1933, with the last coefficient changed to close it).
+/// Half thickness of a four-digit NACA profile of unit chord as a polynomial in u = sqrt(s), s the fraction of the
+/// chord: 5 t (.2969 u - .126 u^2 - .3516 u^4 + .2843 u^6 - .1036 u^8), whose trailing edge is closed (Jacobs, Ward,
+/// Pinkerton, NACA report 460, 1933, with the last coefficient changed to close it).
 CurvePoint naca_point(double thickness, double u) {
     constexpr std::array<double, 9> coefficients = {0.0, 0.2969, -0.126, 0.0, -0.3516, 0.0, 0.2843, 0.0, -0.1036};
     double value = 0.0, first = 0.0, second = 0.0;
@@ -71,7 +73,8 @@ Point project(const SnapToCircle& shape, const Point& x) {
     Point result = x;
     const double dx = x[0] - shape.center[0], dy = x[1] - shape.center[1];
     const double length = std::sqrt(dx * dx + dy * dy);
-    if (length == 0.0) throw InvalidInput("it lies on the centre of the circle and has no direction to be projected in");
+    if (length == 0.0)
+        throw InvalidInput("it lies on the centre of the circle and has no direction to be projected in");
     result[0] = shape.center[0] + dx * (shape.radius / length);
     result[1] = shape.center[1] + dy * (shape.radius / length);
     return result;
@@ -80,7 +83,8 @@ Point project(const SnapToCircle& shape, const Point& x) {
 Point project(const SnapToSphere& shape, const Point& x) {
     const Point center = to_point(shape.center), offset = x - center;
     const double length = offset.norm();
-    if (length == 0.0) throw InvalidInput("it lies on the centre of the sphere and has no direction to be projected in");
+    if (length == 0.0)
+        throw InvalidInput("it lies on the centre of the sphere and has no direction to be projected in");
     return center + offset * (shape.radius / length);
 }
 
@@ -88,7 +92,8 @@ Point project(const SnapToCylinder& shape, const Point& x) {
     const Point center = to_point(shape.center), axis = to_point(shape.axis), offset = x - center;
     const Point along = offset.dot(axis) * axis, radial = offset - along;
     const double length = radial.norm();
-    if (length == 0.0) throw InvalidInput("it lies on the axis of the cylinder and has no direction to be projected in");
+    if (length == 0.0)
+        throw InvalidInput("it lies on the axis of the cylinder and has no direction to be projected in");
     return center + along + radial * (shape.radius / length);
 }
 

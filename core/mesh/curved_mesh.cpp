@@ -9,8 +9,8 @@ namespace curvewright {
 CurvedMesh::CurvedMesh(std::shared_ptr<const MeshTopology> topology, Coordinates coordinates)
     : topology_(std::move(topology)), coordinates_(std::move(coordinates)) {
     if (coordinates_.rows() != topology_->node_count())
-        throw InvalidInput(fmt::format("The mesh has {} nodes but {} positions.", topology_->node_count(),
-                                       coordinates_.rows()));
+        throw InvalidInput(
+            fmt::format("The mesh has {} nodes but {} positions.", topology_->node_count(), coordinates_.rows()));
     if (!coordinates_.allFinite())
         for (Index node = 0; node < topology_->node_count(); ++node)
             if (!coordinates_.row(node).allFinite())

@@ -8,11 +8,12 @@
 
 namespace curvewright {
 
-/// Node coordinates, nodes × 3 (x, y, z), row-major, in the file's unit of length. 2D meshes lie in a plane of constant z.
+/// Node coordinates, nodes × 3 (x, y, z), row-major, in the file's unit of length. 2D meshes lie in a plane of constant
+/// z.
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-/// A mesh of curved elements: a value that is cheap to copy but for its coordinates. Nothing but the coordinates changes
-/// after reading, so a state of the mesh is a coordinate array.
+/// A mesh of curved elements: a value that is cheap to copy but for its coordinates. Nothing but the coordinates
+/// changes after reading, so a state of the mesh is a coordinate array.
 class CurvedMesh {
   public:
     /// Throws InvalidInput if the coordinates are not one finite row per node.

@@ -71,8 +71,7 @@ CurvedMesh elevate(const CurvedMesh& mesh, int order) {
         target.type = {shape, shape == Shape::vertex ? 1 : order};
         target.entity_tag = source.entity_tag;
         target.tags = source.tags;
-        if (shape == Shape::pyramid && order > 1)
-            throw Unsupported("Pyramids cannot be raised above order 1.");
+        if (shape == Shape::pyramid && order > 1) throw Unsupported("Pyramids cannot be raised above order 1.");
         const int corners = corner_count(shape), old_count = node_count(source.type);
         const Eigen::MatrixXd weights =
             shape == Shape::pyramid ? Eigen::MatrixXd(Eigen::MatrixXd::Identity(5, 5)) : corner_weights(target.type);

@@ -37,8 +37,7 @@ void MeshTopology::check_nodes_and_blocks() {
     std::set<std::pair<int, int>> entities;
     for (const Entity& entity : data_.entities)
         if (!entities.emplace(entity.dimension, entity.tag).second)
-            throw InvalidInput(
-                fmt::format("Entity {} of dimension {} occurs twice.", entity.tag, entity.dimension));
+            throw InvalidInput(fmt::format("Entity {} of dimension {} occurs twice.", entity.tag, entity.dimension));
     std::vector<Index> sorted;
     for (const ElementBlock& block : data_.blocks) {
         if (block.type.order < 1 || block.type.order > max_order)

@@ -71,8 +71,9 @@ struct Facet {
 
 /// Connectivity, tags and groups of a mesh: immutable, shared by all states of the same mesh.
 ///
-/// "Elements" are the cells of the highest dimension present (the mesh's dimension), numbered from 0 in the order of the
-/// blocks. Cells of lower dimension (boundary lines, corner points) are kept in blocks() and give groups their nodes.
+/// "Elements" are the cells of the highest dimension present (the mesh's dimension), numbered from 0 in the order of
+/// the blocks. Cells of lower dimension (boundary lines, corner points) are kept in blocks() and give groups their
+/// nodes.
 class MeshTopology {
   public:
     /// Checks the data: node positions in range, tags unique, no element twice the same node, entities unique.

@@ -28,9 +28,10 @@ struct NelderMeadResult {
     bool converged = false;  ///< false: max_iterations were made
 };
 
-/// Minimises function(point) by the Nelder-Mead simplex method (Lagarias, Reeds, Wright, Wright, SIAM J. Optim. 9, 1998;
-/// coefficients 1, 2, 1/2, 1/2) from the simplex start, start + size e_i. Derivative-free; finds a local minimum.
-/// each_iteration(iteration, simplex) is called with the ordered simplex at the start (iteration 0) and after each step.
+/// Minimises function(point) by the Nelder-Mead simplex method (Lagarias, Reeds, Wright, Wright, SIAM J. Optim. 9,
+/// 1998; coefficients 1, 2, 1/2, 1/2) from the simplex start, start + size e_i. Derivative-free; finds a local minimum.
+/// each_iteration(iteration, simplex) is called with the ordered simplex at the start (iteration 0) and after each
+/// step.
 template <int Dim, class Function, class Callback>
 NelderMeadResult<Dim> nelder_mead(Function&& function, const std::array<double, Dim>& start, double size,
                                   const NelderMeadOptions& options, Callback&& each_iteration) {
@@ -79,20 +80,26 @@ NelderMeadResult<Dim> nelder_mead(Function&& function, const std::array<double, 
         if (reflected_value < values[0]) {
             const Point expanded = along(centroid, -2.0);
             const double expanded_value = function(expanded);
-            if (expanded_value < reflected_value) replace_worst(expanded, expanded_value);
-            else replace_worst(reflected, reflected_value);
+            if (expanded_value < reflected_value)
+                replace_worst(expanded, expanded_value);
+            else
+                replace_worst(reflected, reflected_value);
         } else if (reflected_value < values[Dim - 1]) {
             replace_worst(reflected, reflected_value);
         } else if (reflected_value < values[Dim]) {
             const Point outside = along(centroid, -0.5);
             const double outside_value = function(outside);
-            if (outside_value <= reflected_value) replace_worst(outside, outside_value);
-            else shrink = true;
+            if (outside_value <= reflected_value)
+                replace_worst(outside, outside_value);
+            else
+                shrink = true;
         } else {
             const Point inside = along(centroid, 0.5);
             const double inside_value = function(inside);
-            if (inside_value < values[Dim]) replace_worst(inside, inside_value);
-            else shrink = true;
+            if (inside_value < values[Dim])
+                replace_worst(inside, inside_value);
+            else
+                shrink = true;
         }
         if (shrink)
             for (int i = 1; i <= Dim; ++i) {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 
-/// Largest coefficient of a polynomial and a bound of the error of its coefficients, both for the plain (unscaled) Bézier
-/// form. The weights of a Bernstein product are positive and sum to 1, so products are bounded by products.
+/// Largest coefficient of a polynomial and a bound of the error of its coefficients, both for the plain (unscaled)
+/// Bézier form. The weights of a Bernstein product are positive and sum to 1, so products are bounded by products.
 struct Magnitude {
     double largest = 0.0, error = 0.0;
 };
@@ -112,8 +112,8 @@ JacobianBounds::JacobianBounds(ElementType type)
 
 void JacobianBounds::compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double sign) {
     const int n1 = tables_.linear_form->size(), n2 = tables_.minor_form->size();
-    // Relative to the first corner: the subtraction is exact up to half an ulp of the result, so an element far from the
-    // origin is judged as well as one near it.
+    // Relative to the first corner: the subtraction is exact up to half an ulp of the result, so an element far from
+    // the origin is judged as well as one near it.
     const Eigen::MatrixXd shifted = (x.rowwise() - x.row(0)).leftCols(dimension_);
     std::array<std::array<Magnitude, 3>, 3> size;
     for (int c = 0; c < dimension_; ++c) {
@@ -148,8 +148,7 @@ void JacobianBounds::compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double
             total = add(total, multiply(size[0][c], minor, n1));
         }
     }
-    for (std::size_t i = 0; i < product_.size(); ++i)
-        coefficients_[i] = product_[i] * tables_.inverse_multinomials[i];
+    for (std::size_t i = 0; i < product_.size(); ++i) coefficients_[i] = product_[i] * tables_.inverse_multinomials[i];
     error_ = total.error;
 }
 
@@ -224,8 +223,7 @@ JacobianBounds::Extremum JacobianBounds::minimize(const std::vector<double>& coe
         deepest = std::max(deepest, near_a.depth);
         near_a.corners = near_b.corners = pieces[parent].corners;
         std::array<double, 3> middle{};
-        for (int d = 0; d < dimension_; ++d)
-            middle[d] = 0.5 * (near_a.corners[edge_a][d] + near_a.corners[edge_b][d]);
+        for (int d = 0; d < dimension_; ++d) middle[d] = 0.5 * (near_a.corners[edge_a][d] + near_a.corners[edge_b][d]);
         near_a.corners[edge_b] = middle;
         near_b.corners[edge_a] = middle;
         near_a.coefficients.resize(size);
@@ -260,12 +258,17 @@ ElementQuality JacobianBounds::bound(const Eigen::Ref<const Eigen::MatrixX3d>& x
     quality.max_lower = -high.attained - high.error;
     quality.max_upper = -high.bound;
     quality.worst_point = low.point;
-    if (quality.min_lower > 0.0) quality.validity = Validity::valid;
-    else if (quality.min_upper < 0.0) quality.validity = Validity::invalid;
-    else quality.validity = Validity::undecided;
+    if (quality.min_lower > 0.0)
+        quality.validity = Validity::valid;
+    else if (quality.min_upper < 0.0)
+        quality.validity = Validity::invalid;
+    else
+        quality.validity = Validity::undecided;
     const double largest = std::abs(-high.attained);
-    if (largest > 0.0) quality.scaled_jacobian = low.attained / largest;
-    else quality.scaled_jacobian = low.attained < 0.0 ? std::numeric_limits<double>::lowest() : 0.0;
+    if (largest > 0.0)
+        quality.scaled_jacobian = low.attained / largest;
+    else
+        quality.scaled_jacobian = low.attained < 0.0 ? std::numeric_limits<double>::lowest() : 0.0;
     if (!std::isfinite(quality.scaled_jacobian)) quality.scaled_jacobian = std::numeric_limits<double>::lowest();
     return quality;
 }

@@ -11,8 +11,8 @@ namespace curvewright {
 
 /// The Jacobian determinant of a curved simplex in Bernstein-Bézier form, and proved bounds of it.
 ///
-/// The partial derivatives of the element map are polynomials of degree p - 1; their Bézier coefficients follow from the
-/// nodes by one small matrix each, and J is a sum of products of them, computed by Bernstein multiplication (Farin,
+/// The partial derivatives of the element map are polynomials of degree p - 1; their Bézier coefficients follow from
+/// the nodes by one small matrix each, and J is a sum of products of them, computed by Bernstein multiplication (Farin,
 /// "Curves and Surfaces for CAGD", 17.8). That needs far fewer operations than sampling J at its own lattice of degree
 /// d (p - 1) and converting, and it is better conditioned. Rounding is bounded a priori: see coefficient_error.
 ///
@@ -22,8 +22,8 @@ class JacobianBounds {
     /// type: triangle or tetrahedron of order 1..max_order.
     explicit JacobianBounds(ElementType type);
 
-    /// Certified quality of one element. x: nodes × 3 (triangles: z is not read). sign: +1, or -1 for meshes of negative
-    /// orientation: J is multiplied by it.
+    /// Certified quality of one element. x: nodes × 3 (triangles: z is not read). sign: +1, or -1 for meshes of
+    /// negative orientation: J is multiplied by it.
     ElementQuality bound(const Eigen::Ref<const Eigen::MatrixX3d>& x, double sign, const QualityOptions& options);
 
     /// Bézier coefficients of sign·J (degree d (p - 1), positions of BernsteinSimplex) of the last element given to

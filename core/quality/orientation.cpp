@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <map>
 
-#include <Eigen/Geometry>
 #include <fmt/format.h>
+#include <Eigen/Geometry>
 
 #include "core/base/error.h"
 #include "core/basis/reference_element.h"
@@ -36,18 +36,24 @@ std::vector<int> mirrored_nodes(ElementType type) {
 
 const char* to_string(Validity validity) {
     switch (validity) {
-        case Validity::valid: return "valid";
-        case Validity::invalid: return "invalid";
-        case Validity::undecided: return "undecided";
+        case Validity::valid:
+            return "valid";
+        case Validity::invalid:
+            return "invalid";
+        case Validity::undecided:
+            return "undecided";
     }
     return "";
 }
 
 const char* to_string(Orientation orientation) {
     switch (orientation) {
-        case Orientation::positive: return "positive";
-        case Orientation::negative: return "negative";
-        case Orientation::mixed: return "mixed";
+        case Orientation::positive:
+            return "positive";
+        case Orientation::negative:
+            return "negative";
+        case Orientation::mixed:
+            return "mixed";
     }
     return "";
 }
@@ -59,17 +65,19 @@ void require_assessable(const CurvedMesh& mesh) {
     for (Index element = 0; element < topology.element_count(); ++element) {
         const Shape shape = topology.element_type(element).shape;
         if (shape != Shape::triangle && shape != Shape::tetrahedron)
-            throw Unsupported(fmt::format("Element {} is a {}; the scaled Jacobian is available for triangles and "
-                                          "tetrahedra.",
-                                          topology.element_tag(element).value, name(shape)));
+            throw Unsupported(
+                fmt::format("Element {} is a {}; the scaled Jacobian is available for triangles and "
+                            "tetrahedra.",
+                            topology.element_tag(element).value, name(shape)));
     }
     if (topology.dimension() == 2 && topology.element_count() > 0) {
         const auto box = bounding_box(mesh);
         const double diagonal = (box.row(1) - box.row(0)).norm();
         if (box(1, 2) - box(0, 2) > 1e-9 * diagonal)
-            throw Unsupported(fmt::format("The surface mesh is not in a plane of constant z (z goes from {} to {}); 2D "
-                                          "meshes must be.",
-                                          box(0, 2), box(1, 2)));
+            throw Unsupported(
+                fmt::format("The surface mesh is not in a plane of constant z (z goes from {} to {}); 2D "
+                            "meshes must be.",
+                            box(0, 2), box(1, 2)));
     }
 }
 

@@ -14,8 +14,8 @@ namespace curvewright {
 
 QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options, const TaskContext& context) {
     if (!(options.tolerance > 0.0))
-        throw InvalidInput(fmt::format("The tolerance of the scaled Jacobian is {}; it must be positive.",
-                                       options.tolerance));
+        throw InvalidInput(
+            fmt::format("The tolerance of the scaled Jacobian is {}; it must be positive.", options.tolerance));
     const MeshTopology& topology = mesh.topology();
     QualityReport report;
     report.orientation = find_orientation(mesh);
@@ -25,24 +25,25 @@ QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& optio
     // Pieces are of equal work only for equal orders; a piece of a high order is made small.
     const int order = topology.order();
     const std::size_t grain = order <= 3 ? 256 : order <= 5 ? 32 : 4;
-    parallel_for(report.elements.size(), grain, context, "Certifying elements", [&](std::size_t begin, std::size_t end) {
-        std::optional<JacobianBounds> bounds;
-        ElementType type;
-        Eigen::MatrixX3d x;
-        for (std::size_t i = begin; i < end; ++i) {
-            context.check();
-            const auto element = static_cast<Index>(i);
-            if (!bounds || type != topology.element_type(element)) {
-                type = topology.element_type(element);
-                bounds.emplace(type);
-            }
-            const auto nodes = topology.element_nodes(element);
-            x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-            for (std::size_t k = 0; k < nodes.size(); ++k)
-                x.row(static_cast<Eigen::Index>(k)) = mesh.coordinates().row(nodes[k]);
-            report.elements[i] = bounds->bound(x, sign, options);
-        }
-    });
+    parallel_for(report.elements.size(), grain, context, "Certifying elements",
+                 [&](std::size_t begin, std::size_t end) {
+                     std::optional<JacobianBounds> bounds;
+                     ElementType type;
+                     Eigen::MatrixX3d x;
+                     for (std::size_t i = begin; i < end; ++i) {
+                         context.check();
+                         const auto element = static_cast<Index>(i);
+                         if (!bounds || type != topology.element_type(element)) {
+                             type = topology.element_type(element);
+                             bounds.emplace(type);
+                         }
+                         const auto nodes = topology.element_nodes(element);
+                         x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+                         for (std::size_t k = 0; k < nodes.size(); ++k)
+                             x.row(static_cast<Eigen::Index>(k)) = mesh.coordinates().row(nodes[k]);
+                         report.elements[i] = bounds->bound(x, sign, options);
+                     }
+                 });
 
     QualitySummary& summary = report.summary;
     if (!report.elements.empty()) {

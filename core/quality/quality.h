@@ -22,7 +22,7 @@ const char* to_string(Validity validity);
 enum class Orientation {
     positive,  ///< J > 0 expected
     negative,  ///< every element is numbered the other way round: J < 0 expected. Not tangling; see flip_orientation.
-    mixed,     ///< some straight-sided elements are positive, some negative; judged as positive unless most are negative
+    mixed,  ///< some straight-sided elements are positive, some negative; judged as positive unless most are negative
 };
 const char* to_string(Orientation orientation);
 

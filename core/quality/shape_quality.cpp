@@ -5,8 +5,8 @@
 #include <map>
 #include <mutex>
 
-#include <Eigen/LU>
 #include <fmt/format.h>
+#include <Eigen/LU>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"

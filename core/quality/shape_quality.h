@@ -5,10 +5,10 @@
 
 namespace curvewright {
 
-/// Worst mean ratio of every element against its ideal: eta = d det(T)^(2/d) / |T|_F^2 with T = J W^-1, J the Jacobian of
-/// the element map and W that of the ideal element; 1 = similar to the ideal, <= 0 = tangled. The scaled Jacobian tells
-/// how evenly an element is stretched, this tells whether it is a sliver. Sampled on a lattice of degree 3 p (Knupp,
-/// "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23, 2001).
+/// Worst mean ratio of every element against its ideal: eta = d det(T)^(2/d) / |T|_F^2 with T = J W^-1, J the Jacobian
+/// of the element map and W that of the ideal element; 1 = similar to the ideal, <= 0 = tangled. The scaled Jacobian
+/// tells how evenly an element is stretched, this tells whether it is a sliver. Sampled on a lattice of degree 3 p
+/// (Knupp, "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23, 2001).
 struct ShapeSummary {
     double min = 1.0, mean = 1.0;
 };

@@ -80,8 +80,10 @@ EdgeAngles::EdgeAngles(const MeshTopology& topology, const Coordinates& x, const
         fixed_[end].setZero();
         for (int i = 0; i < static_cast<int>(local.size()); ++i) {
             const double weight = direction * derivative(end, i);
-            if (i == edge_node.position) weight_[end] = weight;
-            else fixed_[end] += weight * x.row(nodes[local[i]]).head<2>().transpose();
+            if (i == edge_node.position)
+                weight_[end] = weight;
+            else
+                fixed_[end] += weight * x.row(nodes[local[i]]).head<2>().transpose();
         }
     }
     edge_length_ = (x.row(nodes[local[1]]) - x.row(nodes[local[0]])).head<2>().norm();
@@ -95,8 +97,8 @@ EdgeAngles::EdgeAngles(const MeshTopology& topology, const Coordinates& x, const
         for (int end = 0; end < 2; ++end) {
             // At the start of this triangle's edge it is the following edge (v1); at its end it is the preceding one.
             const bool at_own_start = (end == 0) != is_reversed;
-            const Eigen::Vector2d other = at_own_start ? tangent(topology, x, triangle, previous, 1)
-                                                       : tangent(topology, x, triangle, next, 0);
+            const Eigen::Vector2d other =
+                at_own_start ? tangent(topology, x, triangle, previous, 1) : tangent(topology, x, triangle, next, 0);
             other_[2 * side + end] = other.normalized();
             sense_[2 * side + end] = at_own_start ? sign : -sign;
         }

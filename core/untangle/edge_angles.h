@@ -12,19 +12,19 @@ namespace curvewright {
 /// A high-order node on an interior edge of a 2D mesh of triangles.
 struct EdgeNode {
     Index node = 0;
-    std::array<Index, 2> triangles{};    ///< the two that share the edge
-    std::array<int, 2> local_edges{};    ///< the edge's number in each
-    int position = 0;                    ///< the node's position in the edge of triangles[0]
+    std::array<Index, 2> triangles{};  ///< the two that share the edge
+    std::array<int, 2> local_edges{};  ///< the edge's number in each
+    int position = 0;                  ///< the node's position in the edge of triangles[0]
 };
 
-/// All high-order nodes of the interior edges, in ascending order of the nodes. Throws Unsupported if an edge belongs to
-/// more than two triangles.
+/// All high-order nodes of the interior edges, in ascending order of the nodes. Throws Unsupported if an edge belongs
+/// to more than two triangles.
 std::vector<EdgeNode> find_interior_edge_nodes(const MeshTopology& topology);
 
-/// The four signed angles at the ends of a curved edge in its two triangles (thesis 4.2 and fig. 4.5) as functions of the
-/// position of one of the edge's nodes. At a corner of a counter-clockwise triangle, with unit tangents v1 of the edge that
-/// follows and v2 of the edge that precedes it, both leaving the corner, the signed angle is
-/// sgn(v1 × v2) arccos(v1 · v2): negative means that the element is tangled there.
+/// The four signed angles at the ends of a curved edge in its two triangles (thesis 4.2 and fig. 4.5) as functions of
+/// the position of one of the edge's nodes. At a corner of a counter-clockwise triangle, with unit tangents v1 of the
+/// edge that follows and v2 of the edge that precedes it, both leaving the corner, the signed angle is sgn(v1 × v2)
+/// arccos(v1 · v2): negative means that the element is tangled there.
 class EdgeAngles {
   public:
     /// sign: orientation of the mesh, +1 or -1. The other nodes' positions are read now.

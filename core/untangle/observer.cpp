@@ -4,9 +4,12 @@ namespace curvewright {
 
 const char* to_string(StopReason reason) {
     switch (reason) {
-        case StopReason::converged: return "converged";
-        case StopReason::pass_limit: return "pass limit";
-        case StopReason::no_progress: return "no progress";
+        case StopReason::converged:
+            return "converged";
+        case StopReason::pass_limit:
+            return "pass limit";
+        case StopReason::no_progress:
+            return "no progress";
     }
     return "";
 }

@@ -66,10 +66,9 @@ struct Finished {
 
 }  // namespace untangle_event
 
-using UntangleEvent =
-    std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
-                 untangle_event::SimplexStep, untangle_event::PatchEnded, untangle_event::FaceNodesMoved,
-                 untangle_event::PassEnded, untangle_event::Finished>;
+using UntangleEvent = std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
+                                   untangle_event::SimplexStep, untangle_event::PatchEnded,
+                                   untangle_event::FaceNodesMoved, untangle_event::PassEnded, untangle_event::Finished>;
 
 /// Is told of every step, on the thread that untangles. The method builds events only if an observer is there.
 class UntangleObserver {

@@ -19,8 +19,9 @@ namespace event = untangle_event;
 void check(const CurvedMesh& mesh, const SignedAngleOptions& options) {
     const auto type = mesh.topology().uniform_type();
     if (!type || type->shape != Shape::triangle || type->order < 2 || type->order > 3)
-        throw Unsupported(fmt::format("Untangling by signed angles works on triangles of order 2 or 3; this mesh has {}.",
-                                      type ? name(*type) + " elements" : std::string("elements of several types")));
+        throw Unsupported(
+            fmt::format("Untangling by signed angles works on triangles of order 2 or 3; this mesh has {}.",
+                        type ? name(*type) + " elements" : std::string("elements of several types")));
     require_assessable(mesh);
     if (!(options.beta > 0.0 && options.beta <= 1.0))
         throw InvalidInput(fmt::format("beta is {}; it must be greater than 0 and at most 1.", options.beta));
@@ -28,16 +29,24 @@ void check(const CurvedMesh& mesh, const SignedAngleOptions& options) {
         throw InvalidInput(fmt::format("The number of passes is {}; it must be at least 1.", options.max_passes));
 }
 
-std::array<double, 3> position_of(const Coordinates& x, Index node) { return {x(node, 0), x(node, 1), x(node, 2)}; }
+std::array<double, 3> position_of(const Coordinates& x, Index node) {
+    return {x(node, 0), x(node, 1), x(node, 2)};
+}
 
 /// The work of Alg. 6 on one mesh: the state is `x`.
 class SignedAngleUntangler {
   public:
     SignedAngleUntangler(const CurvedMesh& mesh, const SignedAngleOptions& options, UntangleObserver* observer,
                          const TaskContext& context)
-        : mesh_(mesh), topology_(mesh.topology()), options_(options), observer_(observer), context_(context),
-          sign_(orientation_sign(find_orientation(mesh), mesh)), bounds_(*topology_.uniform_type()),
-          edge_nodes_(find_interior_edge_nodes(topology_)), x_(mesh.coordinates()) {}
+        : mesh_(mesh),
+          topology_(mesh.topology()),
+          options_(options),
+          observer_(observer),
+          context_(context),
+          sign_(orientation_sign(find_orientation(mesh), mesh)),
+          bounds_(*topology_.uniform_type()),
+          edge_nodes_(find_interior_edge_nodes(topology_)),
+          x_(mesh.coordinates()) {}
 
     UntangleResult run() {
         tell(event::Started{&mesh_});
@@ -101,7 +110,8 @@ class SignedAngleUntangler {
         for (std::size_t i = 0; i < edge_nodes_.size(); ++i) {
             if (i % 64 == 0)
                 context_.report(phase, static_cast<double>(i) / static_cast<double>(edge_nodes_.size()));
-            else context_.check();
+            else
+                context_.check();
             move_edge_node(edge_nodes_[i]);
         }
     }
@@ -123,7 +133,8 @@ class SignedAngleUntangler {
 
         event::PatchEnded ended;
         if (observer_) {
-            tell(event::PatchBegan{edge_node.node, {edge_node.triangles.begin(), edge_node.triangles.end()},
+            tell(event::PatchBegan{edge_node.node,
+                                   {edge_node.triangles.begin(), edge_node.triangles.end()},
                                    position_of(x_, edge_node.node)});
             ended.node = edge_node.node;
             ended.objective_before = objective(start);
@@ -135,9 +146,8 @@ class SignedAngleUntangler {
             tell(event::SimplexStep{iteration, simplex.vertices, simplex.values, displacement_term(best),
                                     angle_term(best), angles.evaluate({best[0], best[1]})});
         };
-        const auto minimum =
-            nelder_mead<2>(objective, start, options_.simplex_size * angles.edge_length(),
-                           {options_.simplex_iterations, options_.simplex_tolerance}, watch);
+        const auto minimum = nelder_mead<2>(objective, start, options_.simplex_size * angles.edge_length(),
+                                            {options_.simplex_iterations, options_.simplex_tolerance}, watch);
         x_(edge_node.node, 0) = minimum.point[0];
         x_(edge_node.node, 1) = minimum.point[1];
         if (observer_) {

@@ -29,10 +29,10 @@ struct UntangleResult {
     StopReason reason = StopReason::converged;
 };
 
-/// Untangles curved triangles of order 2 and 3 by signed angles (thesis, chapter 4, Alg. 6): pass 1 moves every high-order
-/// node of every interior edge, in mesh order, to the minimum of (4.1) by Nelder-Mead; pass 2 moves every face node to the
-/// mean of its triangle's high-order edge nodes. Corners and boundary nodes stay bit for bit where they are.
-/// Throws Unsupported for other elements or orders, InvalidInput for options out of range, Cancelled.
+/// Untangles curved triangles of order 2 and 3 by signed angles (thesis, chapter 4, Alg. 6): pass 1 moves every
+/// high-order node of every interior edge, in mesh order, to the minimum of (4.1) by Nelder-Mead; pass 2 moves every
+/// face node to the mean of its triangle's high-order edge nodes. Corners and boundary nodes stay bit for bit where
+/// they are. Throws Unsupported for other elements or orders, InvalidInput for options out of range, Cancelled.
 UntangleResult untangle_signed_angles(const CurvedMesh& mesh, const SignedAngleOptions& options = {},
                                       UntangleObserver* observer = nullptr, const TaskContext& context = {});
 

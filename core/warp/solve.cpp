@@ -5,9 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include <fmt/format.h>
 #include <Eigen/IterativeLinearSolvers>
 #include <Eigen/SparseLU>
-#include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
@@ -29,11 +29,17 @@ class PollingIdentity {
     template <class Matrix>
     explicit PollingIdentity(const Matrix&) {}
     template <class Matrix>
-    PollingIdentity& analyzePattern(const Matrix&) { return *this; }
+    PollingIdentity& analyzePattern(const Matrix&) {
+        return *this;
+    }
     template <class Matrix>
-    PollingIdentity& factorize(const Matrix&) { return *this; }
+    PollingIdentity& factorize(const Matrix&) {
+        return *this;
+    }
     template <class Matrix>
-    PollingIdentity& compute(const Matrix&) { return *this; }
+    PollingIdentity& compute(const Matrix&) {
+        return *this;
+    }
     template <class Vector>
     const Vector& solve(const Vector& b) const {
         context_->check();
@@ -91,8 +97,9 @@ Eigen::MatrixXd solve_directly(const RowMatrix& matrix, const Eigen::MatrixXd& r
     solver.factorize(columns);
     context.check();
     if (solver.info() != Eigen::Success)
-        throw SolverFailure("The matrix of the warp is singular: some interior nodes are not tied to the boundary by "
-                            "their weights.");
+        throw SolverFailure(
+            "The matrix of the warp is singular: some interior nodes are not tied to the boundary by "
+            "their weights.");
     const Eigen::MatrixXd solution = solver.solve(rhs);
     report.solver = SolverChoice::direct;
     report.iterations = 0;

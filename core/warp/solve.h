@@ -16,8 +16,8 @@ struct SolveReport {
     double residual = 0.0;
 };
 
-/// Solves matrix × solution = right_hand_sides for all columns. iterative: BiCGSTAB (van der Vorst 1992), the columns in
-/// parallel; the diagonal of the warp's matrices is 1, so Jacobi scaling is built in. direct: SparseLU with COLAMD
+/// Solves matrix × solution = right_hand_sides for all columns. iterative: BiCGSTAB (van der Vorst 1992), the columns
+/// in parallel; the diagonal of the warp's matrices is 1, so Jacobi scaling is built in. direct: SparseLU with COLAMD
 /// ordering. automatic: iterative, and direct if that does not reach the tolerance.
 /// The iterative solver polls for cancellation at every iteration, the direct one between its phases.
 /// Throws SolverFailure when no solver reaches a usable residual (1e-6), Cancelled.

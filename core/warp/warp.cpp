@@ -10,13 +10,18 @@
 
 namespace curvewright {
 
-const char* to_string(Weighting weighting) { return weighting == Weighting::convex ? "convex" : "affine"; }
+const char* to_string(Weighting weighting) {
+    return weighting == Weighting::convex ? "convex" : "affine";
+}
 
 const char* to_string(SolverChoice solver) {
     switch (solver) {
-        case SolverChoice::automatic: return "auto";
-        case SolverChoice::direct: return "direct";
-        case SolverChoice::iterative: return "iterative";
+        case SolverChoice::automatic:
+            return "auto";
+        case SolverChoice::direct:
+            return "direct";
+        case SolverChoice::iterative:
+            return "iterative";
     }
     return "";
 }
@@ -69,8 +74,8 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
         for (std::size_t k = sets.offsets[i]; k < sets.offsets[i + 1]; ++k) {
             const Index node = sets.nodes[k], column = unknown[node];
             if (column < 0) {
-                rhs.row(i) += table.weights[k] *
-                              (result.coordinates.row(node) - mesh.coordinates().row(node)).head(dim);
+                rhs.row(i) +=
+                    table.weights[k] * (result.coordinates.row(node) - mesh.coordinates().row(node)).head(dim);
                 continue;
             }
             if (!has_diagonal && column > i) {

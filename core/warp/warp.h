@@ -19,9 +19,9 @@ const char* to_string(SolverChoice solver);
 
 struct WarpOptions {
     Weighting weighting = Weighting::convex;
-    /// Influence of a neighbour at distance r: c = r^-distance_power. 0 gives the thesis's weights, in which all nodes of
-    /// the patch count alike. Beyond the thesis: with 2 the near neighbours count more, so that small elements are stiffer
-    /// than large ones and follow a moving boundary with less distortion, at the same cost.
+    /// Influence of a neighbour at distance r: c = r^-distance_power. 0 gives the thesis's weights, in which all nodes
+    /// of the patch count alike. Beyond the thesis: with 2 the near neighbours count more, so that small elements are
+    /// stiffer than large ones and follow a moving boundary with less distortion, at the same cost.
     double distance_power = 2.0;
     SolverChoice solver = SolverChoice::automatic;
     /// Residual of the linear system, relative to its right-hand side, at which the iterative solver stops.
@@ -48,10 +48,10 @@ struct WarpResult {
     WarpReport report;
 };
 
-/// Moves the interior nodes after the boundary: every interior node keeps the weights by which it is a combination of its
-/// neighbours in `mesh` (thesis, chapter 2, Alg. 1).
-/// boundary_positions: nodes × 3; only the rows of boundary nodes are read. Any element shapes (neighbours are the nodes
-/// that share an element). 2D meshes keep the z of their nodes. Throws SolverFailure, Cancelled.
+/// Moves the interior nodes after the boundary: every interior node keeps the weights by which it is a combination of
+/// its neighbours in `mesh` (thesis, chapter 2, Alg. 1). boundary_positions: nodes × 3; only the rows of boundary nodes
+/// are read. Any element shapes (neighbours are the nodes that share an element). 2D meshes keep the z of their nodes.
+/// Throws SolverFailure, Cancelled.
 WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, const WarpOptions& options = {},
                 const TaskContext& context = {});
 

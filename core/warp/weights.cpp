@@ -15,8 +15,7 @@ constexpr double degenerate_pivot = 1e-10;
 
 template <int Dim>
 PatchStatus affine_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
-                              const Eigen::Ref<const Eigen::VectorXd>& influence,
-                              Eigen::Ref<Eigen::VectorXd> weights) {
+                              const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights) {
     const Eigen::Index n = offsets.rows();
     double scale = offsets.cwiseAbs().maxCoeff();
     if (!(scale > 0.0)) scale = 1.0;
@@ -53,14 +52,13 @@ PatchStatus affine_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 
 template <int Dim>
 PatchStatus convex_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
-                              const Eigen::Ref<const Eigen::VectorXd>& influence,
-                              Eigen::Ref<Eigen::VectorXd> weights) {
+                              const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights) {
     using Vector = Eigen::Matrix<double, Dim, 1>;
     using Matrix = Eigen::Matrix<double, Dim, Dim>;
     const Eigen::Index n = offsets.rows();
     const double total = influence.sum();
-    // Whiten the patch (offsets times the inverse Cholesky factor of their second moment): the solution does not change,
-    // but stretched patches become round and the Hessian well conditioned.
+    // Whiten the patch (offsets times the inverse Cholesky factor of their second moment): the solution does not
+    // change, but stretched patches become round and the Hessian well conditioned.
     Matrix moment = Matrix::Zero();
     for (Eigen::Index j = 0; j < n; ++j) {
         const Vector y = offsets.row(j).transpose();
@@ -69,8 +67,7 @@ PatchStatus convex_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
     const double largest = moment.diagonal().maxCoeff();
     if (!(largest > 0.0)) return PatchStatus::outside_hull;
     const Eigen::LLT<Matrix> cholesky(moment);
-    if (cholesky.info() != Eigen::Success ||
-        cholesky.matrixLLT().diagonal().minCoeff() <= 1e-10 * std::sqrt(largest))
+    if (cholesky.info() != Eigen::Success || cholesky.matrixLLT().diagonal().minCoeff() <= 1e-10 * std::sqrt(largest))
         return PatchStatus::outside_hull;
     const Eigen::Matrix<double, Dim, Eigen::Dynamic> y = cholesky.matrixL().solve(offsets.transpose());
 
@@ -157,7 +154,8 @@ WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, W
             const auto count = static_cast<Eigen::Index>(neighbours.size());
             offsets.resize(count, dim);
             for (Eigen::Index j = 0; j < count; ++j)
-                offsets.row(j) = (mesh.coordinates().row(neighbours[j]) - mesh.coordinates().row(interior[i])).head(dim);
+                offsets.row(j) =
+                    (mesh.coordinates().row(neighbours[j]) - mesh.coordinates().row(interior[i])).head(dim);
             Eigen::Map<Eigen::VectorXd> weights(table.weights.data() + sets.offsets[i], count);
             const Eigen::VectorXd influence = influences(offsets, distance_power);
             PatchStatus status = PatchStatus::outside_hull;

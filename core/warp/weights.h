@@ -18,22 +18,23 @@ enum class PatchStatus {
     degenerate,    ///< the neighbours do not span the space
 };
 
-/// Influence of each neighbour: c_j = |y_j|^-power, scaled to a mean of 1. offsets: neighbours × dimension. Power 0 gives
-/// ones: the thesis's weights. Kept within a factor of 1000 of the influence at the mean distance.
+/// Influence of each neighbour: c_j = |y_j|^-power, scaled to a mean of 1. offsets: neighbours × dimension. Power 0
+/// gives ones: the thesis's weights. Kept within a factor of 1000 of the influence at the mean distance.
 Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double power);
 
-/// Affine weights that minimise sum w_j^2 / c_j; for c = 1 those of least 2-norm (thesis 2.6-2.9): w = C A^T (A C A^T)^-1 b.
-/// offsets: neighbours × dimension (2 or 3), neighbour positions minus the node's, in any one unit. influence: c, positive.
-/// weights: as many as neighbours; sum 1 and reproduce the node unless the patch is degenerate (then the least-squares
-/// answer). The small Gram matrix is factored by Cholesky; a degenerate patch goes to a complete orthogonal decomposition.
+/// Affine weights that minimise sum w_j^2 / c_j; for c = 1 those of least 2-norm (thesis 2.6-2.9): w = C A^T (A C
+/// A^T)^-1 b. offsets: neighbours × dimension (2 or 3), neighbour positions minus the node's, in any one unit.
+/// influence: c, positive. weights: as many as neighbours; sum 1 and reproduce the node unless the patch is degenerate
+/// (then the least-squares answer). The small Gram matrix is factored by Cholesky; a degenerate patch goes to a
+/// complete orthogonal decomposition.
 PatchStatus affine_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                            const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights);
 
 /// Convex weights that maximise sum c_j log w_j (thesis 2.14-2.18 for c = 1): positive, sum 1, reproduce the node.
-/// Instead of Newton's method on the KKT system (Alg. 3) this solves its dual: w_j = c_j / (n + g·y_j) with y_j the offsets
-/// and n = sum c, where g maximises sum c_j log(n + g·y_j), a smooth concave problem in `dimension` unknowns. Newton's
-/// method with backtracking converges from g = 0 exactly if the node lies strictly inside the hull; otherwise the status is
-/// outside_hull and the weights are not written.
+/// Instead of Newton's method on the KKT system (Alg. 3) this solves its dual: w_j = c_j / (n + g·y_j) with y_j the
+/// offsets and n = sum c, where g maximises sum c_j log(n + g·y_j), a smooth concave problem in `dimension` unknowns.
+/// Newton's method with backtracking converges from g = 0 exactly if the node lies strictly inside the hull; otherwise
+/// the status is outside_hull and the weights are not written.
 PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                            const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights);
 

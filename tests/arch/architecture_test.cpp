@@ -70,8 +70,7 @@ TEST(Architecture, IncludesFollowTheArrows) {
         ++checked;
         const auto rule = allowed.find(from);
         ASSERT_NE(rule, allowed.end()) << file << " is in a folder that the architecture does not know";
-        const bool is_allowed =
-            rule->second.contains(to) || (to.starts_with("core/") && rule->second.contains("core"));
+        const bool is_allowed = rule->second.contains(to) || (to.starts_with("core/") && rule->second.contains("core"));
         EXPECT_TRUE(is_allowed) << file << " includes " << included << ", but " << from << " may not see " << to;
     }
     EXPECT_GT(checked, 100);

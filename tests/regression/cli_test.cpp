@@ -26,7 +26,9 @@ ProcessResult cli(std::vector<std::string> arguments) {
     return testing::run_program(arguments);
 }
 
-void write(const std::string& file, const std::string& text) { std::ofstream(file) << text; }
+void write(const std::string& file, const std::string& text) {
+    std::ofstream(file) << text;
+}
 
 std::string read(const std::string& file) {
     std::ostringstream text;
@@ -34,7 +36,9 @@ std::string read(const std::string& file) {
     return text.str();
 }
 
-bool exists(const std::string& file) { return std::filesystem::exists(file); }
+bool exists(const std::string& file) {
+    return std::filesystem::exists(file);
+}
 
 class CommandLine : public ::testing::Test {
   protected:
@@ -100,8 +104,7 @@ TEST_F(CommandLine, DeformMovesTheBoundaryOnly) {
     for (Index node : before.topology().interior_nodes())
         EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node));
     const auto inner = before.topology().find_group_nodes("inner").value();
-    for (Index node : inner)
-        EXPECT_NEAR(after.coordinates().row(node).norm(), 0.4, 1e-14);
+    for (Index node : inner) EXPECT_NEAR(after.coordinates().row(node).norm(), 0.4, 1e-14);
     // The deformed mesh serves as a deformation itself, and so does a table of its boundary nodes.
     const std::string again = folder / "again.msh", table = folder / "table.csv", by_table = folder / "by_table.msh";
     EXPECT_EQ(cli({"deform", annulus, "--deformation", tangled, "-o", again}).status, 0);
@@ -121,8 +124,8 @@ TEST_F(CommandLine, WarpReportsBeforeAfterAndSolver) {
     const std::string out = folder / "warped.vtu";
     for (const char* weights : {"convex", "affine"})
         for (const char* solver : {"auto", "direct", "iterative"}) {
-            const ProcessResult result = cli({"warp", circle, "--deformation", circle_deformation, "-o", out, "--weights",
-                                              weights, "--solver", solver, "--json"});
+            const ProcessResult result = cli({"warp", circle, "--deformation", circle_deformation, "-o", out,
+                                              "--weights", weights, "--solver", solver, "--json"});
             ASSERT_EQ(result.status, 0) << result.errors;
             const Json json = Json::parse(result.output);
             EXPECT_GT(json["scaled_jacobian"]["min"].get<double>(), 0.5);

@@ -1,5 +1,6 @@
-// The certified scaled Jacobian, element by element, against numbers from an independent implementation: Python, J sampled
-// at the lattice of its own degree and converted to Bézier form, regular subdivision into 4 or 8, tolerance 2.5e-4.
+// The certified scaled Jacobian, element by element, against numbers from an independent implementation: Python, J
+// sampled at the lattice of its own degree and converted to Bézier form, regular subdivision into 4 or 8,
+// tolerance 2.5e-4.
 
 #include <cmath>
 #include <fstream>
@@ -64,14 +65,21 @@ void compare(const CurvedMesh& mesh, const std::string& name) {
 
 CurvedMesh deformed_sample(const std::string& name, const std::string& mesh_file) {
     const CurvedMesh mesh = read_mesh(samples + name + "/" + mesh_file).mesh;
-    return mesh.with_coordinates(
-        apply_deformation(mesh, read_deformation(samples + name + "/deformation.json")));
+    return mesh.with_coordinates(apply_deformation(mesh, read_deformation(samples + name + "/deformation.json")));
 }
 
-TEST(Oracle, AnnulusP3) { compare(deformed_sample("annulus", "annulus.msh"), "annulus"); }
-TEST(Oracle, NacaLeadingEdgeP3) { compare(read_mesh(data + "naca_le.msh").mesh, "naca_le"); }
-TEST(Oracle, MechanicalPartP2) { compare(read_mesh(data + "mech_ch3.msh").mesh, "mech_ch3"); }
-TEST(Oracle, SecondMechanicalPartP2) { compare(read_mesh(data + "mech_ch4.msh").mesh, "mech_ch4"); }
+TEST(Oracle, AnnulusP3) {
+    compare(deformed_sample("annulus", "annulus.msh"), "annulus");
+}
+TEST(Oracle, NacaLeadingEdgeP3) {
+    compare(read_mesh(data + "naca_le.msh").mesh, "naca_le");
+}
+TEST(Oracle, MechanicalPartP2) {
+    compare(read_mesh(data + "mech_ch3.msh").mesh, "mech_ch3");
+}
+TEST(Oracle, SecondMechanicalPartP2) {
+    compare(read_mesh(data + "mech_ch4.msh").mesh, "mech_ch4");
+}
 TEST(Oracle, MovingSphereP3Tetrahedra) {
     compare(deformed_sample("moving_sphere_small", "moving_sphere_small.msh.gz"), "moving_sphere_small");
 }

@@ -61,8 +61,8 @@ double warped_minimum(const std::string& name, const std::string& file, Weightin
     return assess_quality(mesh.with_coordinates(warp(mesh, target, options).coordinates)).summary.min;
 }
 
-// Minima of the thesis's table 2.5 (its meshes differ a little): moving circle .454 convex, .453 affine; moving sphere .543
-// and .173. The literal weights come near them, the default is above them.
+// Minima of the thesis's table 2.5 (its meshes differ a little): moving circle .454 convex, .453 affine; moving sphere
+// .543 and .173. The literal weights come near them, the default is above them.
 TEST(Samples, WarpsReachTheThesissTable) {
     EXPECT_GT(warped_minimum("moving_circle", "moving_circle.msh", Weighting::convex, 2.0), 0.56);
     EXPECT_GT(warped_minimum("moving_circle", "moving_circle.msh", Weighting::affine, 2.0), 0.55);

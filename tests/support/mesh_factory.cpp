@@ -117,9 +117,8 @@ CurvedMesh cube_mesh(int n, int order) {
     for (const auto& tetrahedron : tetrahedra)
         for (const auto& face : faces)
             for (int side = 0; side < 6; ++side) {
-                const bool is_on_side = std::all_of(face.begin(), face.end(), [&](int corner) {
-                    return x(tetrahedron[corner], side / 2) == side % 2;
-                });
+                const bool is_on_side = std::all_of(
+                    face.begin(), face.end(), [&](int corner) { return x(tetrahedron[corner], side / 2) == side % 2; });
                 if (is_on_side)
                     builder.add_cell(Shape::triangle, side + 1,
                                      {tetrahedron[face[0]], tetrahedron[face[1]], tetrahedron[face[2]]});

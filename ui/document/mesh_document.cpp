@@ -9,13 +9,15 @@ namespace curvewright {
 /// that the history stands on, so that a jump over many steps shows one change.
 class MeshDocument::StateCommand : public QUndoCommand {
   public:
-    StateCommand(const QString& name, MeshState before, MeshState after)
-        : QUndoCommand(name), before_(std::move(before)), after_(std::move(after)) {}
+    StateCommand(const QString& name, const QString& details, MeshState before, MeshState after)
+        : QUndoCommand(name), details_(details), before_(std::move(before)), after_(std::move(after)) {}
 
+    const QString& details() const { return details_; }
     const MeshState& before() const { return before_; }
     const MeshState& after() const { return after_; }
 
   private:
+    QString details_;
     MeshState before_, after_;
 };
 
@@ -60,9 +62,14 @@ void MeshDocument::close() {
     open({});
 }
 
-void MeshDocument::apply(const QString& name, MeshState state) {
+void MeshDocument::apply(const QString& name, MeshState state, const QString& details) {
     Q_ASSERT(has_mesh() && state.mesh && state.mesh->topology().node_count() == current_.mesh->topology().node_count());
-    history_.push(new StateCommand(name, current_, std::move(state)));
+    history_.push(new StateCommand(name, details, current_, std::move(state)));
+}
+
+QString MeshDocument::step_details(int step) const {
+    if (step < 0 || step >= history_.count()) return {};
+    return static_cast<const StateCommand*>(history_.command(step))->details();
 }
 
 void MeshDocument::set_deformation(LoadedDeformation deformation) {

@@ -73,9 +73,14 @@ class MeshDocument : public QObject {
     void open(OpenedMesh opened);
     /// Back to no mesh.
     void close();
-    /// Adds one step to the history. pre: has_mesh(), as many nodes as the present mesh.
-    void apply(const QString& name, MeshState state);
+    /// Adds one step to the history: its name, as short as a list needs it, and what else there is to know about it.
+    /// pre: has_mesh(), as many nodes as the present mesh.
+    void apply(const QString& name, MeshState state, const QString& details = {});
+    /// What is to be known about a step of the history (0 = the first after opening); "" = nothing.
+    QString step_details(int step) const;
     void set_deformation(LoadedDeformation deformation);
+    /// Nothing would be lost with the present state: it is no longer counted as changed.
+    void mark_unchanged() { history_.setClean(); }
     /// The present state has been written to file_path.
     void mark_saved(const QString& file_path);
 

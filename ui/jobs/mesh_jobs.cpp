@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
+#include <QDir>
 #include <QFileInfo>
-#include <QSet>
 
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
@@ -26,6 +26,10 @@ MeshState make_state(CurvedMesh mesh, const TaskContext& context) {
         state.quality_note = QString::fromUtf8(problem.what());
     }
     return state;
+}
+
+QString by_file(const QString& deformation_path) {
+    return MeshJobs::tr("By %1").arg(QDir::toNativeSeparators(deformation_path));
 }
 
 Index moved_nodes(const Coordinates& a, const Coordinates& b) {
@@ -59,11 +63,12 @@ bool MeshJobs::open(OpenRequest request) {
                 deformed->applied_deformations << loaded->file_path;
             }
         }
-        return [this, opened = std::move(opened), loaded, deformed, then = request.then] {
+        return [this, opened = std::move(opened), loaded, deformed, is_start = request.is_starting_point,
+                then = request.then] {
             document_.open(opened);
             if (loaded) document_.set_deformation(*loaded);
-            if (deformed)
-                document_.apply(tr("Deform boundary (%1)").arg(QFileInfo(loaded->file_path).fileName()), *deformed);
+            if (deformed) document_.apply(tr("Deform boundary"), *deformed, by_file(loaded->file_path));
+            if (is_start) document_.mark_unchanged();
             if (then) then();
             if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));
         };
@@ -90,8 +95,10 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
             text += QLatin1Char(' ') + result.advice;
-        return [this, state = std::move(state), name = result.name, text] {
-            document_.apply(name, state);
+        const QString details =
+            result.details.isEmpty() ? result.note : result.details + QLatin1Char('\n') + result.note;
+        return [this, state = std::move(state), name = result.name, details, text] {
+            document_.apply(name, state, details);
             if (!text.isEmpty()) emit note(text);
         };
     });
@@ -100,11 +107,11 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
 bool MeshJobs::deform() {
     if (!why_not_deform().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
-    const QString file = QFileInfo(loaded.file_path).fileName();
-    return run_step(tr("Deforming the boundary"), true, [loaded, file](const CurvedMesh& mesh, const TaskContext&) {
+    return run_step(tr("Deforming the boundary"), true, [loaded](const CurvedMesh& mesh, const TaskContext&) {
         Step step;
         step.coordinates = apply_deformation(mesh, *loaded.deformation);
-        step.name = tr("Deform boundary (%1)").arg(file);
+        step.name = tr("Deform boundary");
+        step.details = by_file(loaded.file_path);
         step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
                         .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
         step.advice = tr("Untangle the elements that have tangled, or undo and warp instead.");
@@ -120,6 +127,10 @@ bool MeshJobs::warp(const WarpOptions& options) {
         const WarpReport& report = result.report;
         Step step;
         step.name = options.weighting == Weighting::convex ? tr("Warp, convex weights") : tr("Warp, affine weights");
+        if (options.distance_power != WarpOptions().distance_power)
+            step.name += tr(", power %1").arg(QString::number(options.distance_power, 'g', 3));
+        step.details = by_file(loaded.file_path) + QLatin1Char('\n') +
+                       tr("Distance power %1").arg(QString::number(options.distance_power, 'g', 3));
         step.note = tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
         step.note += report.solver == SolverChoice::direct
                          ? tr(" (direct solver).")
@@ -166,7 +177,9 @@ bool MeshJobs::flip() {
     return runner_.start(tr("Renumbering"), [this, start](const TaskContext& context) {
         MeshState state = make_state(flip_orientation(*start.mesh), context);
         state.applied_deformations = start.applied_deformations;
-        return [this, state] { document_.apply(tr("Flip the numbering of all elements"), state); };
+        return [this, state] {
+            document_.apply(tr("Flip numbering"), state, tr("All elements are numbered the other way round."));
+        };
     });
 }
 

@@ -20,6 +20,8 @@ struct OpenRequest {
     QString deformation_path;  ///< "" = none
     /// Apply the deformation to the boundary at once, as the first step of the history.
     bool apply_deformation = false;
+    /// The mesh with the deformation applied is where the user starts, and not yet a change to be saved.
+    bool is_starting_point = false;
     /// Called on the window's thread when the mesh is there, before finished().
     std::function<void()> then;
 };
@@ -63,6 +65,7 @@ class MeshJobs : public QObject {
     struct Step {
         Coordinates coordinates;
         QString name;
+        QString details;  ///< with what it was made; with the note, what the history tells about it
         QString note;
         QString advice;  ///< what to do next if elements are tangled in the new state
     };

@@ -272,7 +272,10 @@ void MainWindow::update_options() {
 void MainWindow::highlight(const std::vector<Index>& elements, bool fly) {
     view_->set_highlighted_elements(elements);
     if (elements.size() == 1) {
-        if (fly) view_->fly_to(elements.front());
+        if (fly) {
+            uncover(elements.front());
+            view_->fly_to(elements.front());
+        }
         tell_element(elements.front());
         return;
     }
@@ -280,6 +283,16 @@ void MainWindow::highlight(const std::vector<Index>& elements, bool fly) {
                                               : tr("%1 elements are outlined; click into the empty view to clear.")
                                                     .arg(format_count(static_cast<long long>(elements.size()))),
                              8000);
+}
+
+void MainWindow::uncover(Index element) {
+    if (!view_->options().clip || view_->draws_element(element)) return;
+    const CurvedMesh& mesh = *document_.state().mesh;
+    const auto box = bounding_box(mesh);
+    const int axis = clip_bar_->setting().axis;
+    const double extent = box(1, axis) - box(0, axis);
+    if (extent > 0.0) clip_bar_->show_layer((mesh.element_center(element)[axis] - box(0, axis)) / extent);
+    if (!view_->draws_element(element)) actions_[CommandId::clip]->setChecked(false);
 }
 
 void MainWindow::tell_element(std::optional<Index> element) {

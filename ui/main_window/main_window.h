@@ -88,6 +88,8 @@ class MainWindow : public QMainWindow {
     void update_options();
     void choose_theme(Theme::Choice choice);
     void highlight(const std::vector<Index>& elements, bool fly);
+    /// Moves the clip plane, or takes it away, if it keeps the element out of sight.
+    void uncover(Index element);
     void tell_element(std::optional<Index> element);
     void place_clip_bar();
 

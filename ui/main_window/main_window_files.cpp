@@ -122,6 +122,7 @@ void MainWindow::open_sample(const Sample& sample) {
         request.mesh_path = sample.mesh_path;
         request.deformation_path = sample.deformation_path;
         request.apply_deformation = is_untangle && !sample.is_deformed;
+        request.is_starting_point = true;
         request.then = [this, sample, is_untangle] {
             if (sample.beta) untangle_panel_->set_beta(*sample.beta);
             show_tab(is_untangle ? QStringLiteral("untangle") : QStringLiteral("warp"));

@@ -5,6 +5,7 @@
 #include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
+#include <QScreen>
 #include <QScrollArea>
 #include <QSettings>
 #include <QSplitter>
@@ -207,7 +208,10 @@ void MainWindow::build_status_bar() {
 void MainWindow::restore_layout() {
     first_layout_ = saveState(layout_version);
     const QSettings settings;
-    resize(1280, 800);
+    // No larger than the screen, with room for the frame that the window manager will add.
+    const QRect available = screen()->availableGeometry();
+    constexpr int frame_width = 8, frame_height = 40;
+    resize(qMin(1280, available.width() - frame_width), qMin(800, available.height() - frame_height));
     restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
     restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), layout_version);
     const struct {

@@ -198,6 +198,10 @@ void MeshView::look(ViewDirection direction) {
     request_frame();
 }
 
+bool MeshView::draws_element(Index element) const {
+    return parts_->scene.draws_element(element);
+}
+
 void MeshView::fly_to(Index element) {
     Parts& parts = *parts_;
     parts.flight.stop();

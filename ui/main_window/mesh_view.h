@@ -29,6 +29,8 @@ class MeshView : public QOpenGLWidget {
 
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
+    /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
+    bool draws_element(Index element) const;
     /// Moves the camera to an element within 200 ms.
     void fly_to(Index element);
 

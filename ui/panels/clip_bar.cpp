@@ -1,5 +1,7 @@
 #include "ui/panels/clip_bar.h"
 
+#include <cmath>
+
 #include <QButtonGroup>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -49,6 +51,13 @@ ClipBar::ClipBar(const Theme& theme, QWidget* parent) : QWidget(parent) {
     });
     connect(slider_, &QSlider::valueChanged, this, &ClipBar::changed);
     connect(flip_, &QToolButton::toggled, this, &ClipBar::changed);
+}
+
+void ClipBar::show_layer(double position) {
+    const double step = position * slider_->maximum();
+    constexpr double rounding = 1e-9;
+    slider_->setValue(flip_->isChecked() ? static_cast<int>(std::floor(step - rounding))
+                                         : static_cast<int>(std::ceil(step + rounding)));
 }
 
 ClipSetting ClipBar::setting() const {

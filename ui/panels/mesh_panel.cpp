@@ -2,7 +2,10 @@
 
 #include <QDir>
 #include <QHeaderView>
+#include <QHelpEvent>
 #include <QLabel>
+#include <QMouseEvent>
+#include <QToolTip>
 #include <QTreeWidget>
 #include <QUndoView>
 #include <QVBoxLayout>
@@ -41,7 +44,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     history_->setUniformItemSizes(true);
     history_->setTextElideMode(Qt::ElideRight);
     history_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-    history_->setToolTip(tr("Click a step to go back to it"));
+    history_->viewport()->installEventFilter(this);
 
     auto* layout = new QVBoxLayout(this);
     layout->setContentsMargins(12, 12, 12, 12);
@@ -72,6 +75,30 @@ void MeshPanel::set_history_enabled(bool is_enabled) {
     history_->setEnabled(is_enabled);
 }
 
+bool MeshPanel::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == history_->viewport() && event->type() == QEvent::ToolTip) {
+        const auto* help = static_cast<QHelpEvent*>(event);
+        const QModelIndex index = history_->indexAt(help->pos());
+        QToolTip::showText(help->globalPos(), history_tip(index.isValid() ? index.row() : -1), history_->viewport(),
+                           history_->visualRect(index));
+        return true;
+    }
+    // A click below the last step would only take away the mark of the present one.
+    if (watched == history_->viewport() && event->type() == QEvent::MouseButtonPress)
+        return !history_->indexAt(static_cast<QMouseEvent*>(event)->position().toPoint()).isValid();
+    return QWidget::eventFilter(watched, event);
+}
+
+/// Row 0 is the mesh as opened.
+QString MeshPanel::history_tip(int row) const {
+    QStringList lines;
+    if (row == 0) lines << history_->emptyLabel() << QDir::toNativeSeparators(document_.file_path());
+    if (row > 0) lines << document_.history()->text(row - 1) << document_.step_details(row - 1);
+    lines << tr("Click a step to go to it.");
+    lines.removeAll(QString());
+    return lines.join(QLatin1Char('\n'));
+}
+
 void MeshPanel::show_file() {
     const QString name = document_.file_name();
     file_->setText(name.isEmpty() ? tr("No mesh open") : name);
@@ -95,8 +122,8 @@ void MeshPanel::show_state() {
     const QualitySummary& summary = state.quality->summary;
     validity_->setText(describe_validity(summary));
     set_tone(validity_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
-    minimum_->setText(tr("scaled Jacobian ≥ %1").arg(format_number(summary.min)));
-    minimum_->setToolTip(exact_number(summary.min));
+    minimum_->setText(tr("min scaled Jacobian %1").arg(format_number(summary.min)));
+    minimum_->setToolTip(tr("%1, proved: no element is below it").arg(exact_number(summary.min)));
 }
 
 void MeshPanel::show_groups() {

@@ -28,7 +28,11 @@ class MeshPanel : public QWidget {
     /// Elements of a group that the user clicked.
     void elements_chosen(const std::vector<Index>& elements);
 
+  protected:
+    bool eventFilter(QObject* watched, QEvent* event) override;
+
   private:
+    QString history_tip(int row) const;
     void show_file();
     void show_state();
     void show_groups();

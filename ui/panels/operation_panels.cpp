@@ -137,6 +137,17 @@ WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
     weights_->addItem(tr("Convex (all positive)"), int(Weighting::convex));
     weights_->addItem(tr("Affine (least norm)"), int(Weighting::affine));
     weights_->setToolTip(tr("How an interior node is written as a combination of its neighbours"));
+    distance_power_ = new QDoubleSpinBox;
+    distance_power_->setObjectName(QStringLiteral("distance_power"));
+    distance_power_->setRange(0.0, 8.0);
+    distance_power_->setSingleStep(0.5);
+    distance_power_->setDecimals(1);
+    distance_power_->setLocale(QLocale::c());
+    distance_power_->setValue(WarpOptions().distance_power);
+    distance_power_->setToolTip(
+        tr("How much more near neighbours count than far ones.\n"
+           "0: all neighbours alike, as in the thesis.\n"
+           "2: the default; keeps small elements near the moving boundary in shape."));
     solver_ = new QComboBox;
     solver_->setObjectName(QStringLiteral("solver"));
     solver_->addItem(tr("Automatic"), int(SolverChoice::automatic));
@@ -146,6 +157,7 @@ WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
 
     auto* form = make_form();
     form->addRow(tr("Weights"), weights_);
+    form->addRow(tr("Distance power"), distance_power_);
     form->addRow(tr("Solver"), solver_);
     QVBoxLayout* layout = make_layout(this);
     layout->addLayout(form);
@@ -170,6 +182,7 @@ void WarpPanel::refresh() {
 WarpOptions WarpPanel::options() const {
     WarpOptions options;
     options.weighting = static_cast<Weighting>(weights_->currentData().toInt());
+    options.distance_power = distance_power_->value();
     options.solver = static_cast<SolverChoice>(solver_->currentData().toInt());
     return options;
 }

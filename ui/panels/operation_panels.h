@@ -71,6 +71,7 @@ class WarpPanel : public OperationPanel {
     void refresh() override;
 
     QComboBox *weights_ = nullptr, *solver_ = nullptr;
+    QDoubleSpinBox* distance_power_ = nullptr;
     QLabel* applied_ = nullptr;
 };
 

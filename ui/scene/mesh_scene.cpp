@@ -129,7 +129,8 @@ struct MeshScene::Parts {
         edges.actor()->SetVisibility(options.show_edges && tessellation);
         boundary.actor()->SetVisibility(tessellation && is_flat());
         highlight_halo.set_style({.color = background, .width = 6.5, .cap = 1.0, .is_on_top = true});
-        highlight.set_style({.color = accent_color, .width = 3.0, .cap = 1.0, .is_on_top = true});
+        // Nearer than the halo of every other side of the element.
+        highlight.set_style({.color = accent_color, .width = 3.0, .cap = 1.0, .depth_bias = 0.011, .is_on_top = true});
         nodes.set_colors(options.edge_color, background, options.edge_color);
         nodes.set_visible(options.show_nodes);
         legend.set_colors(background, options.foreground);
@@ -307,6 +308,12 @@ void MeshScene::focus_element(Index element) {
         facing += Eigen::RowVector3d(normal[0], normal[1], normal[2]);
     }
     parts_->camera.focus(parts.frame.to_world(center), radius / parts.frame.size, facing);
+}
+
+bool MeshScene::draws_element(Index element) const {
+    if (!parts_->tessellation) return false;
+    const std::vector<Index>& drawn = parts_->tessellation->triangle_elements();
+    return std::find(drawn.begin(), drawn.end(), element) != drawn.end();
 }
 
 std::optional<Index> MeshScene::pick_element(double x, double y) const {

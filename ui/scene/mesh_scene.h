@@ -59,6 +59,9 @@ class MeshScene {
     /// Moves the camera so that the element fills a good part of the view.
     void focus_element(Index element);
 
+    /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
+    bool draws_element(Index element) const;
+
     /// Takes over the view of another scene that shows the same mesh or another state of it.
     void copy_view(const MeshScene& other);
 

@@ -41,7 +41,8 @@ void OverlayText::hide() {
 
 std::string format_value(double value) {
     std::string text = fmt::format("{:#.3g}", value);
-    if (!text.empty() && text.front() == '-') text.replace(0, 1, "\u2212");
+    for (std::size_t at = text.find('-'); at != std::string::npos; at = text.find('-', at))
+        text.replace(at, 1, "\u2212");
     return text;
 }
 

@@ -64,7 +64,7 @@ constexpr const char* vertex_code = R"(
     here += vec2(-along.y, along.x) * strokeMC.x * reach * miter;
     if (isStart) here -= along * halfWidth * strokeCap;
     if (isEnd) here += along * halfWidth * strokeCap;
-    float depth = strokeOnTop != 0 ? -0.99 * p.w + 0.005 * p.z : p.z - strokeBias * p.w;
+    float depth = (strokeOnTop != 0 ? -0.98 * p.w + 0.005 * p.z : p.z) - strokeBias * p.w;
     gl_Position = vec4(here / halfView * p.w, depth, p.w);
     float period = strokeDash;
     strokeVSOutput = vec4(strokeMC.x * reach, halfWidth, period > 0.0 ? strokeMC.y * scale / period : 0.0,

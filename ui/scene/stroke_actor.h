@@ -31,12 +31,12 @@ struct Polylines {
 struct StrokeStyle {
     Color color{0.0, 0.0, 0.0};
     double opacity = 1.0;
-    double width = 1.0;         ///< units of the pixel ratio
-    double cap = 0.5;           ///< how far ends reach beyond the last point, in half widths
-    double dash = 0.0;          ///< period of dots, units of the pixel ratio; 0 = solid
-    double depth_bias = 0.0;    ///< towards the eye, in units of the depth range (2)
-    bool is_on_top = false;     ///< drawn over everything
-    bool fades = false;         ///< thinner and paler where the spacing of the lines is a few pixels only
+    double width = 1.0;       ///< units of the pixel ratio
+    double cap = 0.5;         ///< how far ends reach beyond the last point, in half widths
+    double dash = 0.0;        ///< period of dots, units of the pixel ratio; 0 = solid
+    double depth_bias = 0.0;  ///< towards the eye, in units of the depth range (2)
+    bool is_on_top = false;   ///< drawn over everything, within 0.005 of depth 0.01: a bias of 0.01 is over all others
+    bool fades = false;       ///< thinner and paler where the spacing of the lines is a few pixels only
     bool is_in_pixels = false;  ///< points are display positions in device pixels instead of mesh coordinates
 };
 

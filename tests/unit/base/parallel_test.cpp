@@ -1,7 +1,7 @@
 #include "core/base/parallel.h"
 
-#include <atomic>
 #include <algorithm>
+#include <atomic>
 #include <thread>
 #include <vector>
 
@@ -30,7 +30,8 @@ TEST(ParallelFor, VisitsEveryIndexOnceInTheSamePieces) {
 }
 
 TEST(ParallelFor, RethrowsAndCancels) {
-    EXPECT_THROW(parallel_for(100, 1, {}, {}, [](std::size_t, std::size_t) { throw InvalidInput("bad"); }), InvalidInput);
+    EXPECT_THROW(parallel_for(100, 1, {}, {}, [](std::size_t, std::size_t) { throw InvalidInput("bad"); }),
+                 InvalidInput);
     std::stop_source source;
     std::atomic<int> calls = 0;
     EXPECT_THROW(parallel_for(10000, 1, {source.get_token(), {}}, {},

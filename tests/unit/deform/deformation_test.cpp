@@ -85,9 +85,9 @@ TEST(Project, RadialShapes) {
     const SnapToRevolution cone{2, {{0, 1}, {2, 3}, {4, 3}}};
     EXPECT_LT((project(cone, Point(5, 0, 1)) - Point(2, 0, 1)).norm(), 1e-15);
     EXPECT_LT((project(cone, Point(0, 5, 3)) - Point(0, 3, 3)).norm(), 1e-15);
-    EXPECT_LT((project(cone, Point(0, 5, -1)) - Point(0, 1, -1)).norm(), 1e-15);   // held beyond the ends
+    EXPECT_LT((project(cone, Point(0, 5, -1)) - Point(0, 1, -1)).norm(), 1e-15);  // held beyond the ends
     EXPECT_LT((project(cone, Point(0, 5, 9)) - Point(0, 3, 9)).norm(), 1e-15);
-    EXPECT_LT((project(cone, Point(0, 0, 3)) - Point(0, 0, 3)).norm(), 1e-15);     // the axis stays
+    EXPECT_LT((project(cone, Point(0, 0, 3)) - Point(0, 0, 3)).norm(), 1e-15);  // the axis stays
     EXPECT_THROW(project(SnapToCircle{{1, 1, 0}, 2.0}, Point(1, 1, 3)), InvalidInput);
     EXPECT_THROW(project(SnapToSphere{{1, 1, 0}, 2.0}, Point(1, 1, 0)), InvalidInput);
     EXPECT_THROW(project(SnapToCylinder{{1, 0, 0}, {0, 1, 0}, 2.0}, Point(1, 3, 0)), InvalidInput);
@@ -141,8 +141,8 @@ TEST(ApplyDeformation, WholeMeshMovesTheBoundaryOnlyAndMustBeComplete) {
     const CurvedMesh mesh = square_mesh(2, 2);
     NodeTable table{{}, true};
     for (Index node = 0; node < mesh.topology().node_count(); ++node)
-        table.rows.push_back({mesh.topology().node_tag(node),
-                              {mesh.coordinates()(node, 0) + 1, mesh.coordinates()(node, 1), 0}});
+        table.rows.push_back(
+            {mesh.topology().node_tag(node), {mesh.coordinates()(node, 0) + 1, mesh.coordinates()(node, 1), 0}});
     const Coordinates x = apply_deformation(mesh, {table, "m.msh"});
     for (Index node = 0; node < mesh.topology().node_count(); ++node)
         EXPECT_EQ(x(node, 0), mesh.coordinates()(node, 0) + (mesh.topology().is_boundary_node(node) ? 1 : 0));
@@ -155,9 +155,10 @@ TEST(ApplyDeformation, FaultsAreNamed) {
     const auto of = [&](std::string group, OperationKind kind) {
         return failure(mesh, {OperationList{{{"left", Translate{}}, {std::move(group), std::move(kind)}}}, "d.json"});
     };
-    EXPECT_EQ(of("wing", Translate{}),
-              "d.json: operation 2: there is no group 'wing' (the mesh has bottom, right, top, left, domain, and 'boundary' "
-              "and 'all' always exist).");
+    EXPECT_EQ(
+        of("wing", Translate{}),
+        "d.json: operation 2: there is no group 'wing' (the mesh has bottom, right, top, left, domain, and 'boundary' "
+        "and 'all' always exist).");
     EXPECT_NE(of("left", Expression{{"x +", {}, {}}}).find("d.json: operation 2 on group 'left': the expression 'x +'"),
               std::string::npos);
     EXPECT_NE(of("left", Expression{{"1/x", {}, {}}}).find("not finite"), std::string::npos);

@@ -37,13 +37,14 @@ TEST(Expression, IsEvaluatedAnewForEveryPoint) {
 }
 
 TEST(Expression, WrongFormulasAreNamed) {
-    for (const char* formula : {"", "x +", "foo(x)", "w", "x y", "(x", "x)", "1..2", "sin()", "sin(x,y)", "x = 3", "x, y",
-                                "_pi", "rnd(1)", "x ? y : z", "\"a\"", "x @ y", "min()"})
+    for (const char* formula : {"", "x +", "foo(x)", "w", "x y", "(x", "x)", "1..2", "sin()", "sin(x,y)", "x = 3",
+                                "x, y", "_pi", "rnd(1)", "x ? y : z", "\"a\"", "x @ y", "min()"})
         try {
             CompiledExpression expression(formula);
             ADD_FAILURE() << "accepted: " << formula;
         } catch (const InvalidInput& error) {
-            EXPECT_NE(std::string(error.what()).find("'" + std::string(formula) + "'"), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("'" + std::string(formula) + "'"), std::string::npos)
+                << error.what();
         }
 }
 

@@ -23,7 +23,8 @@ TEST(Elevate, NodeCountsAndSharingForEveryOrder) {
         if (order > 6) continue;
         const CurvedMesh cube = cube_mesh(1, order);
         EXPECT_EQ(cube.topology().node_count(), (order + 1) * (order + 1) * (order + 1));
-        EXPECT_EQ(cube.topology().interior_nodes().size(), static_cast<std::size_t>((order - 1) * (order - 1) * (order - 1)));
+        EXPECT_EQ(cube.topology().interior_nodes().size(),
+                  static_cast<std::size_t>((order - 1) * (order - 1) * (order - 1)));
     }
 }
 

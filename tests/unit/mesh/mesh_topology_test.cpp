@@ -55,7 +55,8 @@ TEST(MeshTopology, GroupsGiveTheNodesOfTheirCells) {
 TEST(MeshTopology, TagsLeadBackToPositions) {
     const CurvedMesh mesh = square_mesh(2, 3);
     const MeshTopology& topology = mesh.topology();
-    for (Index node = 0; node < topology.node_count(); ++node) EXPECT_EQ(topology.find_node(topology.node_tag(node)), node);
+    for (Index node = 0; node < topology.node_count(); ++node)
+        EXPECT_EQ(topology.find_node(topology.node_tag(node)), node);
     for (Index element = 0; element < topology.element_count(); ++element)
         EXPECT_EQ(topology.find_element(topology.element_tag(element)), element);
     EXPECT_FALSE(topology.find_node({-5}));
@@ -97,7 +98,8 @@ TEST(MeshTopology, RefusesInconsistentData) {
               std::string::npos);
     EXPECT_NE(message([&](MeshData& d) { d.blocks[last].nodes.pop_back(); }).find("instead of"), std::string::npos);
     EXPECT_NE(message([&](MeshData& d) { d.blocks[last].type.order = 11; }).find("orders 1 to 10"), std::string::npos);
-    EXPECT_NE(message([](MeshData& d) { d.entities.push_back(d.entities[0]); }).find("occurs twice"), std::string::npos);
+    EXPECT_NE(message([](MeshData& d) { d.entities.push_back(d.entities[0]); }).find("occurs twice"),
+              std::string::npos);
 }
 
 TEST(CurvedMesh, ChecksItsCoordinates) {

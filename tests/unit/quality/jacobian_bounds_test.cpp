@@ -3,8 +3,8 @@
 #include <cmath>
 #include <limits>
 
-#include <Eigen/LU>
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
 #include "core/basis/lagrange.h"
 #include "core/basis/node_ordering.h"
@@ -111,8 +111,8 @@ INSTANTIATE_TEST_SUITE_P(Tetrahedra, EveryOrder,
                                            Case{Shape::tetrahedron, 5}, Case{Shape::tetrahedron, 6},
                                            Case{Shape::tetrahedron, 8}, Case{Shape::tetrahedron, 10}));
 
-/// P2 triangle with base 1, apex (1/2, h) and the base's middle node raised by s: J is linear along the base's normal and
-/// min J / max J = 1 - 2 s / h exactly, for 0 <= s <= h / 2 (direct computation).
+/// P2 triangle with base 1, apex (1/2, h) and the base's middle node raised by s: J is linear along the base's normal
+/// and min J / max J = 1 - 2 s / h exactly, for 0 <= s <= h / 2 (direct computation).
 TEST(JacobianBoundsTest, RaisedMiddleNodeHasKnownScaledJacobian) {
     for (const double s : {0.0, 0.05, 0.1, 0.149, 0.1500001, 0.2}) {
         Eigen::MatrixX3d x(6, 3);
@@ -126,7 +126,8 @@ TEST(JacobianBoundsTest, RaisedMiddleNodeHasKnownScaledJacobian) {
 }
 
 TEST(JacobianBoundsTest, ExactZeroIsUndecidedAndNeverValid) {
-    // Half angle: the two edges at corner 0 are collinear there, so J vanishes in that corner and is positive elsewhere.
+    // Half angle: the two edges at corner 0 are collinear there, so J vanishes in that corner and is positive
+    // elsewhere.
     Eigen::MatrixX3d x(6, 3);
     x << 0, 0, 0, 1, 0, 0, -1, 0, 0, .5, 0, 0, 0, -1, 0, -.5, 0, 0;
     x.col(1) *= -1;

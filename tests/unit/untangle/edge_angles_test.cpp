@@ -16,8 +16,8 @@ namespace {
 using testing::shaken;
 using testing::square_mesh;
 
-/// The signed angle at corner `corner` of a triangle, from the element map itself: the edges' tangents there are columns
-/// (or differences) of the Jacobian. Independent of EdgeAngles' one-dimensional shape functions.
+/// The signed angle at corner `corner` of a triangle, from the element map itself: the edges' tangents there are
+/// columns (or differences) of the Jacobian. Independent of EdgeAngles' one-dimensional shape functions.
 double corner_angle(const CurvedMesh& mesh, Index triangle, int corner) {
     Eigen::MatrixX3d point = Eigen::MatrixX3d::Zero(1, 3);
     if (corner > 0) point(0, corner - 1) = 1.0;

@@ -23,9 +23,8 @@ TEST(TraceWriter, EveryLineIsAnEventWithTagsOfTheFile) {
     for (std::string line; std::getline(lines, line);) events.push_back(nlohmann::json::parse(line));
     ASSERT_GT(events.size(), 10u);
     EXPECT_EQ(events.front()["event"], "started");
-    EXPECT_EQ(events.back(), (nlohmann::json{{"event", "finished"},
-                                             {"passes", result.passes},
-                                             {"reason", to_string(result.reason)}}));
+    EXPECT_EQ(events.back(),
+              (nlohmann::json{{"event", "finished"}, {"passes", result.passes}, {"reason", to_string(result.reason)}}));
     int patches = 0;
     for (const auto& event : events) {
         if (event["event"] != "patch_ended") continue;
