@@ -1,11 +1,10 @@
 #include "core/basis/bernstein.h"
 
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
-
-#include <Eigen/LU>
 
 #include "core/basis/reference_element.h"
 
@@ -72,32 +71,44 @@ void BernsteinSimplex::bisect(int a, int b, const double* coefficients, double* 
     }
 }
 
-const Eigen::MatrixXd& lagrange_to_bernstein(ElementType simplex) {
+const ExtendedMatrix& lagrange_to_bernstein(ElementType simplex) {
     static std::mutex mutex;
-    static std::map<ElementType, Eigen::MatrixXd> cache;
+    static std::map<ElementType, ExtendedMatrix> cache;
     const std::lock_guard lock(mutex);
     auto [entry, is_new] = cache.try_emplace(simplex);
     if (!is_new) return entry->second;
 
-    using Real = long double;
-    using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
-    const int p = simplex.order;
-    const BernsteinSimplex& bernstein = BernsteinSimplex::get(dimension(simplex.shape), p);
+    const int p = simplex.order, dim = dimension(simplex.shape);
+    const BernsteinSimplex& form = BernsteinSimplex::get(dim, p);
     const auto& lattice = reference_element(simplex).lattice;
-    Matrix vandermonde(bernstein.size(), bernstein.size());
-    for (int node = 0; node < bernstein.size(); ++node) {
+    ExtendedMatrix& matrix = entry->second;
+    matrix.resize(form.size(), form.size());
+    for (int node = 0; node < form.size(); ++node) {
         const auto& point = lattice[node];
-        const std::array<int, 4> numerators{p - point[0] - point[1] - point[2], point[0], point[1], point[2]};
-        for (int c = 0; c < bernstein.size(); ++c) {
-            Real value = static_cast<Real>(bernstein.multinomials()[c]);
-            for (int i = 0; i < 4; ++i)
-                for (int power = 0; power < bernstein.indices()[c][i]; ++power)
-                    value *= static_cast<Real>(numerators[i]) / static_cast<Real>(p);
-            vandermonde(node, c) = value;
-        }
+        const std::array<int, 4> alpha{p - point[0] - point[1] - point[2], point[0], point[1], point[2]};
+        std::vector<std::int64_t> polynomial{1};
+        std::int64_t divisor = 1;
+        int degree = 0;
+        for (int i = 0; i <= dim; ++i)
+            for (int k = 0; k < alpha[i]; ++k) {
+                // Multiply by the linear form p lambda_i - k = sum_j (p delta_ij - k) lambda_j.
+                const BernsteinSimplex& low = BernsteinSimplex::get(dim, degree);
+                const BernsteinSimplex& high = BernsteinSimplex::get(dim, ++degree);
+                std::vector<std::int64_t> product(high.size(), 0);
+                for (int a = 0; a < low.size(); ++a)
+                    for (int j = 0; j <= dim; ++j) {
+                        auto index = low.indices()[a];
+                        ++index[j];
+                        product[high.position(index[1], index[2], index[3])] += (j == i ? p - k : -k) * polynomial[a];
+                    }
+                polynomial = std::move(product);
+                divisor *= k + 1;
+            }
+        for (int c = 0; c < form.size(); ++c)
+            matrix(c, node) = static_cast<long double>(polynomial[c]) /
+                              (static_cast<long double>(divisor) * static_cast<long double>(form.multinomials()[c]));
     }
-    entry->second = vandermonde.partialPivLu().inverse().cast<double>();
-    return entry->second;
+    return matrix;
 }
 
 }  // namespace curvewright

@@ -45,7 +45,11 @@ class BernsteinSimplex {
     std::array<std::array<std::vector<std::vector<int>>, 4>, 4> lines_;
 };
 
-/// Bézier coefficients from nodal values: size × nodes, nodes in this program's order. Computed in extended precision.
-const Eigen::MatrixXd& lagrange_to_bernstein(ElementType simplex);
+using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+/// Bézier coefficients from nodal values: size × nodes, nodes in this program's order. Silvester's functions are products
+/// of linear forms with integer coefficients, so each entry is a quotient of two integers, found exactly and rounded once
+/// (relative error 2^-63).
+const ExtendedMatrix& lagrange_to_bernstein(ElementType simplex);
 
 }  // namespace curvewright

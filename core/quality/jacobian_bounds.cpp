@@ -61,8 +61,9 @@ struct JacobianBounds::Tables {
     const BernsteinSimplex* jacobian_form = nullptr;
     /// Per direction, (size of degree p - 1) × nodes: scaled Bézier coefficients of the derivative.
     std::array<Eigen::MatrixXd, 3> derivative;
-    /// Largest row sum of the absolute values, before scaling by the multinomials.
-    double row_sum = 0.0;
+    /// Largest row sum of the absolute values of the derivative matrices (before scaling by the multinomials), and of the
+    /// two terms that each entry is the difference of.
+    double row_sum = 0.0, row_sum_of_terms = 0.0;
     std::vector<int> linear_times_linear, linear_times_minor;
     std::vector<double> inverse_multinomials;  ///< of the Jacobian's form
 };
@@ -80,7 +81,7 @@ const JacobianBounds::Tables& JacobianBounds::tables(ElementType type) {
     built->linear_form = &BernsteinSimplex::get(dim, p - 1);
     built->minor_form = &BernsteinSimplex::get(dim, 2 * (p - 1));
     built->jacobian_form = &BernsteinSimplex::get(dim, dim * (p - 1));
-    const Eigen::MatrixXd& to_bezier = lagrange_to_bernstein(type);
+    const ExtendedMatrix& to_bezier = lagrange_to_bernstein(type);
     for (int k = 0; k < dim; ++k) {
         built->derivative[k].resize(built->linear_form->size(), to_bezier.cols());
         for (int row = 0; row < built->linear_form->size(); ++row) {
@@ -88,9 +89,11 @@ const JacobianBounds::Tables& JacobianBounds::tables(ElementType type) {
             const int zero = form.position(up[1], up[2], up[3]);
             up[k + 1] += 1;
             const int one = form.position(up[1], up[2], up[3]);
-            const Eigen::RowVectorXd plain = p * (to_bezier.row(one) - to_bezier.row(zero));
-            built->row_sum = std::max(built->row_sum, plain.cwiseAbs().sum());
-            built->derivative[k].row(row) = built->linear_form->multinomials()[row] * plain;
+            const ExtendedMatrix plain = p * (to_bezier.row(one) - to_bezier.row(zero));
+            const ExtendedMatrix terms = p * (to_bezier.row(one).cwiseAbs() + to_bezier.row(zero).cwiseAbs());
+            built->row_sum = std::max(built->row_sum, static_cast<double>(plain.cwiseAbs().sum()));
+            built->row_sum_of_terms = std::max(built->row_sum_of_terms, static_cast<double>(terms.sum()));
+            built->derivative[k].row(row) = (built->linear_form->multinomials()[row] * plain).cast<double>();
         }
     }
     built->linear_times_linear = product_targets(*built->linear_form, *built->linear_form, *built->minor_form);
@@ -118,7 +121,10 @@ void JacobianBounds::compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double
     std::array<std::array<Magnitude, 3>, 3> size;
     for (int c = 0; c < dimension_; ++c) {
         const double extent = shifted.col(c).cwiseAbs().maxCoeff();
-        const double error = 2 * (static_cast<double>(x.rows()) + 6) * unit_roundoff * tables_.row_sum * extent;
+        // The dot product and the rounding of its entries; the entries themselves are exact to 2^-60 of their terms.
+        const double error = (2 * (static_cast<double>(x.rows()) + 6) * unit_roundoff * tables_.row_sum +
+                              0x1p-60 * tables_.row_sum_of_terms) *
+                             extent;
         for (int k = 0; k < dimension_; ++k) {
             derivative_[k][c].noalias() = tables_.derivative[k] * shifted.col(c);
             double largest = 0.0;

@@ -295,6 +295,12 @@ class FilesTest : public QObject {
         QVERIFY(test.window->document().state().quality->summary.invalid > 0);
         QVERIFY(test.find<QPushButton>("untangle_button")->isVisible());
         QCOMPARE(test.find<QDoubleSpinBox>("beta")->value(), 0.25);
+        // It is where the user starts: leaving it loses nothing.
+        QCOMPARE(test.window->document().history()->count(), 1);
+        QVERIFY(!test.window->isWindowModified());
+        test.click("untangle_button");
+        QVERIFY(test.wait_for_job());
+        QVERIFY(test.window->isWindowModified());
     }
 };
 

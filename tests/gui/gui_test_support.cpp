@@ -22,6 +22,8 @@ Inputs::Inputs() {
     const CurvedMesh square = square_mesh(4, 3);
     write_mesh(path(QStringLiteral("square.msh")).toStdString(), square);
     write_mesh(path(QStringLiteral("clockwise.msh")).toStdString(), flip_orientation(square));
+    const Eigen::MatrixX3d corners{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {1.0, 1.0, 0.0}, {0.0, 1.0, 0.0}};
+    write_mesh(path(QStringLiteral("quad.msh")).toStdString(), single_element({Shape::quadrilateral, 1}, corners));
     write_mesh(path(QStringLiteral("cube.msh")).toStdString(), cube_mesh(2, 2));
     write_text(
         path(QStringLiteral("bump.json")),

@@ -20,6 +20,7 @@ Theme& theme();
 /// malformed.msh   a mesh file that breaks off
 /// clockwise.msh   the square with all triangles numbered clockwise
 /// cube.msh        48 tetrahedra of order 2
+/// quad.msh        one quadrilateral: a mesh whose quality is not available
 class Inputs {
   public:
     Inputs();

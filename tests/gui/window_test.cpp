@@ -2,16 +2,22 @@
 
 #include <QAction>
 #include <QComboBox>
+#include <QDoubleSpinBox>
+#include <QHelpEvent>
 #include <QLabel>
 #include <QMenuBar>
 #include <QPushButton>
 #include <QSignalSpy>
+#include <QSlider>
 #include <QTabWidget>
 #include <QToolButton>
+#include <QToolTip>
 #include <QTreeWidget>
 #include <QUndoView>
 #include <set>
 
+#include "core/deform/deformation.h"
+#include "core/warp/warp.h"
 #include "tests/gui/gui_test_support.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/histogram_widget.h"
@@ -130,6 +136,8 @@ class WindowTest : public QObject {
         test.open(test.inputs.path(QStringLiteral("square.msh")), test.inputs.path(QStringLiteral("bump.json")));
         test.window->show_tab(QStringLiteral("warp"));
         auto* weights = test.find<QComboBox>("weights");
+        auto* power = test.find<QDoubleSpinBox>("distance_power");
+        QCOMPARE(power->value(), WarpOptions().distance_power);
         MeshDocument& document = test.window->document();
         for (const int choice : {0, 1}) {
             weights->setCurrentIndex(choice);
@@ -144,6 +152,81 @@ class WindowTest : public QObject {
             test.click("tool_undo");
             QCOMPARE(document.state().mesh->coordinates(), document.original().mesh->coordinates());
             QVERIFY(!document.is_deformation_applied());
+        }
+
+        // The distance power reaches the job, and the history says so.
+        const CurvedMesh& opened = *document.state().mesh;
+        const Coordinates moved = apply_deformation(opened, *document.deformation()->deformation);
+        WarpOptions thesis;
+        thesis.weighting = Weighting::affine;
+        thesis.distance_power = 0.0;
+        const Coordinates expected = warp(opened, moved, thesis).coordinates;
+        power->setValue(0.0);
+        test.click("warp_button");
+        QVERIFY(test.wait_for_job());
+        QCOMPARE(document.history()->undoText(), QStringLiteral("Warp, affine weights, power 0"));
+        QVERIFY((document.state().mesh->coordinates() - expected).cwiseAbs().maxCoeff() < 1e-9);
+        test.click("tool_undo");
+        power->setValue(2.0);
+        test.click("warp_button");
+        QVERIFY(test.wait_for_job());
+        QVERIFY((document.state().mesh->coordinates() - expected).cwiseAbs().maxCoeff() > 1e-4);
+    }
+
+    void history_tells_about_its_steps() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("square.msh")), test.inputs.path(QStringLiteral("bump.json")));
+        QTest::keyClick(test.window.get(), Qt::Key_D, Qt::ControlModifier);
+        QVERIFY(test.wait_for_job());
+        auto* history = test.find<QUndoView>("history");
+        const QPoint steps[] = {history->visualRect(history->model()->index(0, 0)).center(),
+                                history->visualRect(history->model()->index(1, 0)).center()};
+        QCOMPARE(history->model()->index(1, 0).data().toString(), QStringLiteral("Deform boundary"));
+        const auto tip_at = [&](QPoint position) {
+            QHelpEvent help(QEvent::ToolTip, position, history->viewport()->mapToGlobal(position));
+            QCoreApplication::sendEvent(history->viewport(), &help);
+            return QToolTip::text();
+        };
+        QVERIFY(tip_at(steps[0]).contains(QStringLiteral("square.msh")));
+        QVERIFY(tip_at(steps[1]).contains(QStringLiteral("bump.json")));
+        QVERIFY(tip_at(steps[1]).contains(QStringLiteral("boundary nodes")));
+        QToolTip::hideText();
+
+        // A click below the last step changes nothing, not even the mark.
+        QTest::mouseClick(history->viewport(), Qt::LeftButton, {}, steps[1] + QPoint(0, 60));
+        QCOMPARE(test.window->document().history()->index(), 1);
+        QCOMPARE(history->currentIndex().row(), 1);
+        QVERIFY(history->selectionModel()->isSelected(history->currentIndex()));
+    }
+
+    void flying_to_a_hidden_element_uncovers_it() {
+        WindowUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        const MeshView& view = test.window->view();
+        test.click("tool_clip");
+        auto* table = test.find<QTreeWidget>("worst_elements");
+        auto* slider = test.find<QSlider>("clip_position");
+        for (const char* side : {"", "clip_flip"}) {
+            if (*side) test.click(side);
+            for (int row = 0; row < table->topLevelItemCount(); ++row) {
+                slider->setValue(*side ? slider->maximum() : slider->minimum());  // hides all
+                const Index element = test.window->document().state().quality->worst(row + 1).back();
+                QVERIFY(!view.draws_element(element));
+                QTest::mouseClick(table->viewport(), Qt::LeftButton, {},
+                                  table->visualItemRect(table->topLevelItem(row)).center());
+                QVERIFY(view.draws_element(element));
+                QVERIFY(view.options().clip.has_value());
+            }
+        }
+    }
+
+    void narrow_windows_keep_everything_in_view() {
+        WindowUnderTest test;
+        test.window->resize(1024, 700);
+        for (const char* file : {"square.msh", "quad.msh", "clockwise.msh"}) {
+            test.open(test.inputs.path(QLatin1String(file)));
+            QTest::qWait(20);
+            QCOMPARE(test.window->width(), 1024);
         }
     }
 

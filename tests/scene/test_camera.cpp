@@ -202,6 +202,64 @@ TEST(Picking, DoesNotSeeHiddenElements) {
     EXPECT_FALSE(its.scene.pick_element(x, y).has_value());
 }
 
+TEST(Scene, KnowsWhichElementsItDraws) {
+    Window its(make_ball());
+    const Index count = its.mesh.topology().element_count();
+    const auto drawn = [&] {
+        std::vector<bool> flags;
+        for (Index element = 0; element < count; ++element) flags.push_back(its.scene.draws_element(element));
+        return flags;
+    };
+    const std::vector<bool> whole = drawn();
+    EXPECT_GT(std::count(whole.begin(), whole.end(), true), 0);
+    EXPECT_GT(std::count(whole.begin(), whole.end(), false), 0);  // those inside
+    SceneOptions options;
+    options.clip = ClipPlane{{0.0, 0.0, 1.0}, 0.5};
+    its.scene.set_options(options);
+    const std::vector<bool> cut = drawn();
+    bool uncovers = false;
+    for (Index element = 0; element < count; ++element) {
+        if (its.mesh.element_center(element)[2] > 1e-9) EXPECT_FALSE(cut[element]);
+        uncovers = uncovers || (cut[element] && !whole[element]);
+    }
+    EXPECT_TRUE(uncovers);
+    EXPECT_FALSE(its.scene.draws_element(count));
+    its.scene.set_mesh(nullptr, nullptr);
+    EXPECT_FALSE(its.scene.draws_element(0));
+}
+
+/// Every side of an outlined solid element is drawn throughout: no other side's halo hides it.
+TEST(Scene, OutlineOfASolidElementIsWhole) {
+    Window its(make_ball());
+    MeshScene drawn;  // the same view, without the window
+    drawn.set_mesh(&its.mesh, &its.report);
+    for (const Index element : {30, 100, 190, 300}) {
+        its.scene.focus_element(element);
+        its.frame_start();
+        drawn.set_highlighted_elements({element});
+        drawn.copy_view(its.scene);
+        const auto file = std::filesystem::temp_directory_path() / "curvewright_outline.png";
+        render_png(drawn, width, height, file);
+        const Image image = read_image(file);
+        const Eigen::MatrixX3d x = its.mesh.element_coordinates(element);  // 4 corners, then a node on each side
+        for (Eigen::Index a = 0; a < 4; ++a) {
+            for (Eigen::Index b = 0; b < a; ++b) {
+                Eigen::Index middle = 4;
+                const Eigen::RowVector3d half = 0.5 * (x.row(a) + x.row(b));
+                for (Eigen::Index node = 5; node < 10; ++node)
+                    if ((x.row(node) - half).norm() < (x.row(middle) - half).norm()) middle = node;
+                for (double t = 0.0; t <= 1.0; t += 0.02) {
+                    const Eigen::RowVector3d point = (1 - t) * (1 - 2 * t) * x.row(a) + t * (2 * t - 1) * x.row(b) +
+                                                     4 * t * (1 - t) * x.row(middle);
+                    const auto [sx, sy] = its.display(point);
+                    const auto pixel = image.at(static_cast<int>(sx), height - 1 - static_cast<int>(sy));
+                    EXPECT_GT(pixel[2], pixel[0] + 80) << "element " << element << ", side " << a << b << ", " << t;
+                }
+            }
+        }
+    }
+}
+
 TEST(Picking, FocusBringsAnElementToTheMiddle) {
     for (const CurvedMesh& mesh : {make_ring(), make_ball()}) {
         Window its(mesh);

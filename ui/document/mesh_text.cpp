@@ -6,6 +6,7 @@
 
 #include <QCollator>
 #include <QCoreApplication>
+#include <QLocale>
 #include <QStringList>
 
 #include "ui/document/number_format.h"
@@ -85,7 +86,8 @@ QVector<GroupLine> list_groups(const MeshTopology& topology) {
         lines.push_back({QString::fromStdString(name), group.dimension, static_cast<Index>(nodes.size()),
                          elements_of_group(topology, group, nodes)});
     }
-    QCollator collator;
+    // Not the locale of the environment: that of C does not know numbers.
+    QCollator collator(QLocale(QLocale::English, QLocale::UnitedStates));
     collator.setNumericMode(true);  // hole2 before hole10
     std::stable_sort(lines.begin(), lines.end(), [&collator](const GroupLine& a, const GroupLine& b) {
         return a.dimension > b.dimension || (a.dimension == b.dimension && collator.compare(a.name, b.name) < 0);

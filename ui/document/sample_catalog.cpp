@@ -25,7 +25,8 @@ SampleCatalog SampleCatalog::load() {
     QStringList folders;
     if (const QString chosen = qEnvironmentVariable("CURVEWRIGHT_SAMPLES"); !chosen.isEmpty()) folders << chosen;
     folders << program + QStringLiteral("/../../sample_meshes")
-            << program + QStringLiteral("/../share/curvewright/sample_meshes");
+            << program + QStringLiteral("/../share/curvewright/sample_meshes")
+            << QStringLiteral(CURVEWRIGHT_SOURCE_SAMPLES);
     for (const QString& folder : folders)
         if (QFile::exists(manifest_of(folder))) return load(QDir(folder).absolutePath());
     SampleCatalog none;

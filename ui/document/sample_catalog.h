@@ -20,7 +20,7 @@ struct Sample {
 };
 
 /// The samples that belong to this program. Looks in $CURVEWRIGHT_SAMPLES, then beside the program as it is built
-/// (../../sample_meshes) and installed (../share/curvewright/sample_meshes).
+/// (../../sample_meshes) and installed (../share/curvewright/sample_meshes), and in the sources that it was built from.
 class SampleCatalog {
   public:
     /// Reads the catalog; empty (with error() telling why) if there is none or it is malformed.

@@ -95,9 +95,19 @@ void MainWindow::connect_commands() {
     on(CommandId::quit, [this] { close(); });
     on(CommandId::undo, [this] { document_.history()->undo(); });
     on(CommandId::redo, [this] { document_.history()->redo(); });
-    on(CommandId::deform, [this] { deform_panel_->run(); });
-    on(CommandId::warp, [this] { warp_panel_->run(); });
-    on(CommandId::untangle, [this] { untangle_panel_->run(); });
+    // With the panel whose parameters they take.
+    on(CommandId::deform, [this] {
+        show_tab(QStringLiteral("deform"));
+        deform_panel_->run();
+    });
+    on(CommandId::warp, [this] {
+        show_tab(QStringLiteral("warp"));
+        warp_panel_->run();
+    });
+    on(CommandId::untangle, [this] {
+        show_tab(QStringLiteral("untangle"));
+        untangle_panel_->run();
+    });
     on(CommandId::flip, [this] { jobs_.flip(); });
     on(CommandId::stop, [this] { jobs_.runner().cancel(); });
     on(CommandId::reset_layout, &MainWindow::reset_layout);
@@ -129,6 +139,7 @@ void MainWindow::connect_document() {
 
     JobRunner& runner = jobs_.runner();
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
+    connect(&runner, &JobRunner::started, statusBar(), &QStatusBar::clearMessage);
     connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
         after_save_ = nullptr;
         pending_format_.reset();

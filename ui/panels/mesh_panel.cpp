@@ -103,7 +103,7 @@ void MeshPanel::show_file() {
     const QString name = document_.file_name();
     file_->setText(name.isEmpty() ? tr("No mesh open") : name);
     file_->setToolTip(QDir::toNativeSeparators(document_.file_path()));
-    history_->setEmptyLabel(name.isEmpty() ? QString() : tr("Open %1").arg(name));
+    history_->setEmptyLabel(name.isEmpty() ? QString() : tr("As opened"));
 }
 
 void MeshPanel::show_state() {

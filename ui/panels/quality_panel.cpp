@@ -86,11 +86,12 @@ QualityPanel::Side QualityPanel::make_side(const QString& object_name) {
 void QualityPanel::show_figures(const Side& side, const MeshState& state) {
     side.histogram->set_report(state.quality);
     if (!state.quality) {
-        side.figures->setText(state.quality_note);
-        side.figures->setToolTip(state.quality_note);
+        side.histogram->setToolTip(state.quality_note);
+        side.figures->clear();
         side.validity->clear();
         return;
     }
+    side.histogram->setToolTip(QString());
     const QualitySummary& summary = state.quality->summary;
     side.figures->setText(
         tr("min %1   mean %2   max %3")

@@ -75,12 +75,23 @@ TEST(LagrangeToBernstein, BothFormsHaveTheSameValues) {
             const auto& form = BernsteinSimplex::get(dim, order);
             Eigen::VectorXd nodal(form.size());
             for (auto& v : nodal) v = normal(random);
-            const Eigen::VectorXd bezier = lagrange_to_bernstein(type) * nodal;
+            const Eigen::VectorXd bezier = lagrange_to_bernstein(type).cast<double>() * nodal;
             const auto l = random_point(dim, random);
             const Eigen::RowVector3d point(l[1], l[2], l[3]);
             const double expected = lagrange_basis(type, point).values.row(0) * nodal;
             const double actual = evaluate(form, {bezier.begin(), bezier.end()}, l);
             EXPECT_NEAR(actual, expected, 1e-11 * std::max(1.0, bezier.cwiseAbs().maxCoeff())) << name(type);
+        }
+}
+
+TEST(LagrangeToBernstein, RowsSumToOneToTheLastBit) {
+    // Integer overflow in the products would show here first.
+    for (const Shape shape : {Shape::line, Shape::triangle, Shape::tetrahedron})
+        for (int order = 1; order <= max_order; ++order) {
+            const ExtendedMatrix& matrix = lagrange_to_bernstein({shape, order});
+            for (Eigen::Index row = 0; row < matrix.rows(); ++row)
+                EXPECT_LT(std::abs(static_cast<double>(matrix.row(row).sum() - 1.0L)),
+                          1e-16 * static_cast<double>(matrix.row(row).cwiseAbs().sum()));
         }
 }
 
