@@ -117,10 +117,22 @@ void JacobianBounds::compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double
     const int n1 = tables_.linear_form->size(), n2 = tables_.minor_form->size();
     // Relative to the first corner: the subtraction is exact up to half an ulp of the result, so an element far from
     // the origin is judged as well as one near it.
-    const Eigen::MatrixXd shifted = (x.rowwise() - x.row(0)).leftCols(dimension_);
+    Eigen::MatrixXd shifted = (x.rowwise() - x.row(0)).leftCols(dimension_);
+    exponent_ = 0;
     std::array<std::array<Magnitude, 3>, 3> size;
     for (int c = 0; c < dimension_; ++c) {
-        const double extent = shifted.col(c).cwiseAbs().maxCoeff();
+        double extent = shifted.col(c).cwiseAbs().maxCoeff();
+        if (!std::isfinite(extent)) {
+            std::fill(coefficients_.begin(), coefficients_.end(), std::numeric_limits<double>::quiet_NaN());
+            error_ = std::numeric_limits<double>::infinity();
+            return;
+        }
+        if (extent > 0.0) {
+            const int power = std::ilogb(extent);
+            shifted.col(c) = shifted.col(c).unaryExpr([power](double v) { return std::scalbn(v, -power); });
+            extent = std::scalbn(extent, -power);
+            exponent_ += power;
+        }
         // The dot product and the rounding of its entries; the entries themselves are exact to 2^-60 of their terms.
         const double error = (2 * (static_cast<double>(x.rows()) + 6) * unit_roundoff * tables_.row_sum +
                               0x1p-60 * tables_.row_sum_of_terms) *
@@ -151,7 +163,8 @@ void JacobianBounds::compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double
             accumulate_product(derivative_[0][c].data(), n1, minor_.data(), n2, tables_.linear_times_minor, sign,
                                product_.data());
             const Magnitude minor = add(multiply(size[1][u], size[2][v], n1), multiply(size[1][v], size[2][u], n1));
-            total = add(total, multiply(size[0][c], minor, n1));
+            // Three such products are summed into each coefficient.
+            total = add(total, multiply(size[0][c], minor, 3 * n1));
         }
     }
     for (std::size_t i = 0; i < product_.size(); ++i) coefficients_[i] = product_[i] * tables_.inverse_multinomials[i];
@@ -204,7 +217,6 @@ JacobianBounds::Extremum JacobianBounds::minimize(const std::vector<double>& coe
         const bool is_settled = !settle_sign || best.bound > 0.0 || best.attained + error < 0.0;
         // Nothing more can be learnt once the gap is within rounding.
         const bool is_exhausted = best.attained - piece.lower <= 2 * error;
-        best.is_sign_settled = is_settled;
         if ((is_tight && is_settled) || is_exhausted || bisections >= options.max_subdivisions) return best;
 
         int edge_a = 0, edge_b = 1;
@@ -248,6 +260,14 @@ JacobianBounds::Extremum JacobianBounds::minimize(const std::vector<double>& coe
 ElementQuality JacobianBounds::bound(const Eigen::Ref<const Eigen::MatrixX3d>& x, double sign,
                                      const QualityOptions& options) {
     compute(x, sign);
+    ElementQuality quality;
+    if (!std::isfinite(error_)) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        quality.scaled_jacobian = 0.0;
+        quality.min_lower = quality.max_lower = -infinity;
+        quality.min_upper = quality.max_upper = infinity;
+        return quality;  // undecided
+    }
     // A value of |J| that is attained: the tolerance is relative to max |J|, and in high orders the coefficients may be
     // far larger than that.
     double magnitude = 0.0;
@@ -258,18 +278,17 @@ ElementQuality JacobianBounds::bound(const Eigen::Ref<const Eigen::MatrixX3d>& x
     magnitude = std::max(magnitude, std::abs(high.attained));
     const Extremum low = minimize(coefficients_, magnitude, true, options);
 
-    ElementQuality quality;
+    // The sign is judged before scaling back, which may round bounds of tiny or huge elements to 0 or infinity.
     quality.min_lower = low.bound;
     quality.min_upper = low.attained + low.error;
+    if (quality.min_lower > 0.0) quality.validity = Validity::valid;
+    else if (quality.min_upper < 0.0) quality.validity = Validity::invalid;
+    else quality.validity = Validity::undecided;
     quality.max_lower = -high.attained - high.error;
     quality.max_upper = -high.bound;
+    for (double* bound : {&quality.min_lower, &quality.min_upper, &quality.max_lower, &quality.max_upper})
+        *bound = std::scalbn(*bound, exponent_);
     quality.worst_point = low.point;
-    if (quality.min_lower > 0.0)
-        quality.validity = Validity::valid;
-    else if (quality.min_upper < 0.0)
-        quality.validity = Validity::invalid;
-    else
-        quality.validity = Validity::undecided;
     const double largest = std::abs(-high.attained);
     if (largest > 0.0)
         quality.scaled_jacobian = low.attained / largest;

@@ -26,10 +26,12 @@ class JacobianBounds {
     /// negative orientation: J is multiplied by it.
     ElementQuality bound(const Eigen::Ref<const Eigen::MatrixX3d>& x, double sign, const QualityOptions& options);
 
-    /// Bézier coefficients of sign·J (degree d (p - 1), positions of BernsteinSimplex) of the last element given to
-    /// compute(), and a bound of their rounding error.
+    /// Bézier coefficients of sign·J·2^-exponent() (degree d (p - 1), positions of BernsteinSimplex) of the last element
+    /// given to compute(), and a bound of their rounding error. The power of two makes every coordinate's extent about 1,
+    /// so that no product over- or underflows whatever the unit of length. NaN if the element's extent is not finite.
     const std::vector<double>& coefficients() const { return coefficients_; }
     double coefficient_error() const { return error_; }
+    int exponent() const { return exponent_; }
     void compute(const Eigen::Ref<const Eigen::MatrixX3d>& x, double sign);
 
   private:
@@ -39,7 +41,6 @@ class JacobianBounds {
         double bound = 0.0;     ///< proved bound on the far side of the extremum
         double error = 0.0;     ///< rounding bound of `attained`
         std::array<double, 3> point{};
-        bool is_sign_settled = true;
     };
     static const Tables& tables(ElementType type);
     /// Minimum of the polynomial with the given coefficients. magnitude: some attained |J|, as large as known.
@@ -51,6 +52,7 @@ class JacobianBounds {
     const Tables& tables_;
     std::vector<double> coefficients_;
     double error_ = 0.0;
+    int exponent_ = 0;
     std::array<std::array<Eigen::VectorXd, 3>, 3> derivative_;  ///< [direction][coordinate]
     std::vector<double> minor_, product_, negated_;
 };

@@ -19,7 +19,8 @@ QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& optio
     const MeshTopology& topology = mesh.topology();
     QualityReport report;
     report.orientation = find_orientation(mesh);
-    const double sign = orientation_sign(report.orientation, mesh);
+    report.orientation_sign = options.orientation_sign.value_or(orientation_sign(report.orientation, mesh));
+    const double sign = report.orientation_sign;
     report.elements.resize(static_cast<std::size_t>(topology.element_count()));
 
     // Pieces are of equal work only for equal orders; a piece of a high order is made small.
@@ -53,12 +54,13 @@ QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& optio
         for (const ElementQuality& quality : report.elements) {
             summary.min = std::min(summary.min, quality.scaled_jacobian);
             summary.max = std::max(summary.max, quality.scaled_jacobian);
-            total += quality.scaled_jacobian / static_cast<double>(report.elements.size());
+            total += quality.scaled_jacobian;
             if (quality.validity == Validity::valid) ++summary.valid;
             if (quality.validity == Validity::invalid) ++summary.invalid;
             if (quality.validity == Validity::undecided) ++summary.undecided;
         }
-        summary.mean = std::max(total, std::numeric_limits<double>::lowest());
+        // Clamped: rounding must not push the mean past the extremes, nor an infinite sum out of the numbers.
+        summary.mean = std::clamp(total / static_cast<double>(report.elements.size()), summary.min, summary.max);
     }
     return report;
 }

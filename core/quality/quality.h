@@ -31,6 +31,9 @@ struct QualityOptions {
     double tolerance = 2.5e-4;
     /// Bisections of the reference element per bound before the element is called undecided.
     int max_subdivisions = 4000;
+    /// Sign of J of a valid element, +1 or -1; not given: that of the mesh's orientation. For judging what became of a mesh,
+    /// give the sign of the original (QualityReport::orientation_sign): a mesh that was turned inside out is not valid.
+    std::optional<double> orientation_sign;
 };
 
 /// Certified quality of one element. J is that of the mesh's orientation: positive in a valid element.
@@ -53,7 +56,8 @@ struct QualitySummary {
 struct QualityReport {
     std::vector<ElementQuality> elements;  ///< one per element, in the order of the mesh
     QualitySummary summary;
-    Orientation orientation = Orientation::positive;
+    Orientation orientation = Orientation::positive;  ///< of the straight-sided elements
+    double orientation_sign = 1.0;                    ///< what J was multiplied with
 
     /// Elements by ascending scaled Jacobian (ties by index), at most `count`.
     std::vector<Index> worst(std::size_t count) const;

@@ -14,7 +14,8 @@ struct ShapeSummary {
 };
 
 /// ideal: nodes × 3; the ideal of an element is the straight-sided element on its corners there.
-/// Triangles and tetrahedra; throws Unsupported like assess_quality, InvalidInput if an ideal element has no volume.
+/// An ideal without volume is similar to nothing: eta = 0. Triangles and tetrahedra; throws Unsupported like
+/// assess_quality.
 ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
 
 }  // namespace curvewright

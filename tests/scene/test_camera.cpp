@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 
 #include <gtest/gtest.h>
 #include <vtkCallbackCommand.h>
@@ -11,8 +13,10 @@
 #include <vtkRenderer.h>
 
 #include "core/base/error.h"
+#include "tests/scene/image_compare.h"
 #include "tests/scene/scene_meshes.h"
 #include "ui/scene/mesh_scene.h"
+#include "ui/scene/offscreen.h"
 #include "ui/scene/view_metrics.h"
 
 namespace curvewright {
@@ -219,7 +223,9 @@ TEST(Scene, KnowsWhichElementsItDraws) {
     const std::vector<bool> cut = drawn();
     bool uncovers = false;
     for (Index element = 0; element < count; ++element) {
-        if (its.mesh.element_center(element)[2] > 1e-9) EXPECT_FALSE(cut[element]);
+        if (its.mesh.element_center(element)[2] > 1e-9) {
+            EXPECT_FALSE(cut[element]);
+        }
         uncovers = uncovers || (cut[element] && !whole[element]);
     }
     EXPECT_TRUE(uncovers);
@@ -249,10 +255,10 @@ TEST(Scene, OutlineOfASolidElementIsWhole) {
                 for (Eigen::Index node = 5; node < 10; ++node)
                     if ((x.row(node) - half).norm() < (x.row(middle) - half).norm()) middle = node;
                 for (double t = 0.0; t <= 1.0; t += 0.02) {
-                    const Eigen::RowVector3d point = (1 - t) * (1 - 2 * t) * x.row(a) + t * (2 * t - 1) * x.row(b) +
-                                                     4 * t * (1 - t) * x.row(middle);
+                    const Eigen::RowVector3d point =
+                        (1 - t) * (1 - 2 * t) * x.row(a) + t * (2 * t - 1) * x.row(b) + 4 * t * (1 - t) * x.row(middle);
                     const auto [sx, sy] = its.display(point);
-                    const auto pixel = image.at(static_cast<int>(sx), height - 1 - static_cast<int>(sy));
+                    const unsigned char* pixel = image.pixel(static_cast<int>(sx), static_cast<int>(sy));
                     EXPECT_GT(pixel[2], pixel[0] + 80) << "element " << element << ", side " << a << b << ", " << t;
                 }
             }

@@ -1,11 +1,13 @@
 #include "core/quality/jacobian_bounds.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 #include <Eigen/LU>
 
+#include "core/basis/bernstein.h"
 #include "core/basis/lagrange.h"
 #include "core/basis/node_ordering.h"
 #include "tests/support/mesh_factory.h"
@@ -139,6 +141,93 @@ TEST(JacobianBoundsTest, ExactZeroIsUndecidedAndNeverValid) {
               Validity::undecided);
 }
 
+/// J at the corners of an element in extended precision: at a corner the derivatives involve the nodes of the adjacent
+/// edges only, with the integer-quotient weights of the one-dimensional Lagrange derivative.
+std::vector<long double> corner_jacobians(ElementType type, const Eigen::MatrixX3d& x) {
+    const int dim = dimension(type.shape);
+    const ExtendedMatrix& bezier = lagrange_to_bernstein(type);
+    const BernsteinSimplex& form = BernsteinSimplex::get(dim, type.order);
+    using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+    const Matrix control = bezier * (x.rowwise() - x.row(0)).leftCols(dim).cast<long double>();
+    std::vector<long double> values;
+    for (int corner = 0; corner <= dim; ++corner) {
+        // The tangents at a corner lead to the control points next to it; those of direction k end minus those of 0.
+        Matrix jacobian(dim, dim);
+        for (int k = 0; k < dim; ++k) {
+            auto plus = form.indices()[form.corners()[corner]], minus = plus;
+            --plus[corner], ++plus[k + 1];
+            --minus[corner], ++minus[0];
+            jacobian.row(k) = type.order * (control.row(form.position(plus[1], plus[2], plus[3])) -
+                                            control.row(form.position(minus[1], minus[2], minus[3])));
+        }
+        values.push_back(jacobian.determinant());
+    }
+    return values;
+}
+
+/// Elements sheared to within rounding of a line or plane: the sign of J drowns in rounding errors, and only a right error
+/// bound keeps the certificate from claiming what it does not know.
+TEST(JacobianBoundsTest, FlatElementsAreNeverFalselyJudged) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    int decided = 0, undecided = 0;
+    for (const Shape shape : {Shape::triangle, Shape::tetrahedron})
+        for (int order = 1; order <= 4; ++order) {
+            const ElementType type{shape, order};
+            const int dim = dimension(shape);
+            JacobianBounds bounds(type);
+            for (int trial = 0; trial < 1500; ++trial) {
+                Eigen::MatrixX3d x = reference_nodes(type);
+                if (trial % 3 > 0)
+                    for (Eigen::Index i = 0; i < x.rows(); ++i)
+                        for (int d = 0; d < dim; ++d) x(i, d) += 0.02 * normal(random);
+                const double slope = normal(random), thickness = std::pow(10.0, -12 - 6.0 * (trial % 100) / 100);
+                x.col(dim - 1) = slope * x.col(0) + thickness * x.col(dim - 1);
+                if (dim == 3) x.col(2) -= 0.3 * slope * x.col(1);
+                const ElementQuality q = bounds.bound(x, 1.0, {});
+                const auto exact = corner_jacobians(type, x);
+                const auto [low, high] = std::minmax_element(exact.begin(), exact.end());
+                // Extended precision has 11 bits more; within its own noise it says nothing.
+                const long double noise = 1e-3L * bounds.coefficient_error() * std::scalbn(1.0L, bounds.exponent());
+                if (q.validity == Validity::valid) {
+                    EXPECT_GT(*low, -noise) << name(type) << ", trial " << trial;
+                }
+                EXPECT_LE(q.min_lower, *low + noise);
+                EXPECT_GE(q.max_upper, *high - noise);
+                const BernsteinSimplex& form = BernsteinSimplex::get(dim, dim * (order - 1));
+                for (int corner = 0; corner <= dim; ++corner) {
+                    const long double computed =
+                        std::scalbn(static_cast<long double>(bounds.coefficients()[form.corners()[corner]]),
+                                    bounds.exponent());
+                    EXPECT_LE(std::abs(computed - exact[corner]),
+                              1.001L * bounds.coefficient_error() * std::scalbn(1.0L, bounds.exponent()));
+                }
+                ++(q.validity == Validity::undecided ? undecided : decided);
+            }
+        }
+    EXPECT_GT(decided, 1000);
+    EXPECT_GT(undecided, 1000);
+}
+
+TEST(JacobianBoundsTest, TinyAndHugeElementsAreJudgedLikeOthers) {
+    std::mt19937 random(13);
+    for (const ElementType type : {ElementType{Shape::triangle, 3}, ElementType{Shape::tetrahedron, 2}})
+        for (int trial = 0; trial < 100; ++trial) {
+            JacobianBounds bounds(type);
+            const Eigen::MatrixX3d x = random_simplex(type, 0.4, random);
+            const ElementQuality plain = bounds.bound(x, 1.0, {});
+            for (const int power : {-900, -355, 340, 900}) {
+                const Eigen::MatrixX3d scaled = std::scalbn(1.0, power) * x;
+                const ElementQuality q = bounds.bound(scaled, 1.0, {});
+                EXPECT_EQ(q.validity, plain.validity) << power;
+                EXPECT_EQ(q.scaled_jacobian, plain.scaled_jacobian) << power;
+            }
+        }
+    Eigen::MatrixX3d overflowing(3, 3);
+    overflowing << -1.5e308, 0, 0, 1.5e308, 0, 0, 0, 1, 0;
+    EXPECT_EQ(JacobianBounds({Shape::triangle, 1}).bound(overflowing, 1.0, {}).validity, Validity::undecided);
+}
+
 TEST(JacobianBoundsTest, BudgetRunsOutAsUndecided) {
     std::mt19937 random(3);
     const ElementType type{Shape::triangle, 4};
@@ -147,7 +236,7 @@ TEST(JacobianBoundsTest, BudgetRunsOutAsUndecided) {
     for (int i = 0; i < 200; ++i) {
         const Eigen::MatrixX3d x = random_simplex(type, 0.25, random);
         const ElementQuality full = bounds.bound(x, 1.0, {});
-        const ElementQuality none = bounds.bound(x, 1.0, {2.5e-4, 0});
+        const ElementQuality none = bounds.bound(x, 1.0, {2.5e-4, 0, {}});
         if (none.validity == Validity::undecided) {
             ++undecided;
         } else {

@@ -65,6 +65,16 @@ TEST(Orientation, ClockwiseMeshIsJudgedTheOtherWayRoundAndCanBeFlipped) {
     }
 }
 
+TEST(Orientation, MeshTurnedInsideOutIsInvalidForTheOriginalsSign) {
+    const CurvedMesh mesh = square_mesh(2, 2);
+    Coordinates mirrored = mesh.coordinates();
+    mirrored.col(0) *= -1;
+    QualityOptions options;
+    options.orientation_sign = assess_quality(mesh).orientation_sign;
+    EXPECT_EQ(assess_quality(mesh.with_coordinates(mirrored)).summary.valid, 8);
+    EXPECT_EQ(assess_quality(mesh.with_coordinates(mirrored), options).summary.invalid, 8);
+}
+
 TEST(Orientation, OneReversedElementIsMixed) {
     MeshData data = square_mesh(2, 1).topology().data();
     for (ElementBlock& block : data.blocks)
@@ -88,7 +98,7 @@ TEST(AssessQuality, RefusesWhatItCannotJudge) {
     Coordinates bent = square_mesh(2, 1).coordinates();
     bent(0, 2) = 0.5;
     EXPECT_THROW(assess_quality(square_mesh(2, 1).with_coordinates(bent)), Unsupported);
-    EXPECT_THROW(assess_quality(square_mesh(2, 1), {0.0, 10}), InvalidInput);
+    EXPECT_THROW(assess_quality(square_mesh(2, 1), {0.0, 10, {}}), InvalidInput);
 }
 
 TEST(AssessQuality, StopsWhenAsked) {
