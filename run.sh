@@ -8,7 +8,7 @@ cd "$(dirname "$0")"
 install_packages run
 build run
 
-if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
+if [ -n "${DISPLAY:-}" ]; then
     [ $# -gt 0 ] || set -- sample_meshes/moving_circle/moving_circle.msh \
         --deformation sample_meshes/moving_circle/deformation.json
     exec build/bin/curvewright "$@"

@@ -1,17 +1,19 @@
 #!/usr/bin/env bash
 # The main job without a window: deform, warp and untangle the samples, with pictures, VTU files and a report.
-#     scripts/demo.sh FOLDER
+#     scripts/demo.sh FOLDER [CLI]
 set -euo pipefail
-cd "$(dirname "$0")/.."
+export LC_ALL=C
+cli=$(realpath "${2:-$(dirname "$0")/../build/bin/curvewright-cli}")
 out=${1:-out}
-cli=build/bin/curvewright-cli
+case $out in /*) ;; *) out=$PWD/$out ;; esac
+cd "$(dirname "$0")/.."
 mkdir -p "$out"
 report=$out/report.md
 json=$(mktemp)
 trap 'rm -f "$json"' EXIT
 
-# value KEY.KEY: a number out of the JSON of the last command.
-value() { sed -n "/\"$1\": {/,/}/s/^ *\"$2\": \([-0-9.e+]*\),*$/\1/p" "$json" | tail -n 1; }
+# value OBJECT KEY: a number out of the JSON of the last command. The result's object comes before that of "before".
+value() { sed -n "/\"$1\": {/,/}/s/^ *\"$2\": \([-0-9.e+]*\),*$/\1/p" "$json" | head -n 1; }
 
 # row SAMPLE STEP: one line of the report from the JSON of the last command.
 row() {
@@ -52,4 +54,4 @@ for file in "$out"/*.vtu; do
     run render "$file" -o "${file%.vtu}.png" --size 1200x900 "${clip[@]}"
     printf '\n![%s](%s)\n' "$(basename "${file%.vtu}")" "$(basename "${file%.vtu}").png" >>"$report"
 done
-echo "No display: pictures, VTU files and a report are in $out/ (start with $out/report.md)."
+echo "Pictures, VTU files and a report are in $out (start with report.md)."

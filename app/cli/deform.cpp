@@ -13,6 +13,7 @@ struct Options {
 };
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -27,9 +28,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     write_output(options.output, mesh, quality ? &*quality : nullptr, &input.coordinates(), timings);
     finish_timings(timings, watch);
     if (invocation.common.json)
-        fmt::print("{}\n",
-                   Json({{"mesh", mesh_json(options.output.file, mesh)}, {"moved_nodes", moved}, {"timings", timings}})
-                       .dump(2));
+        print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"moved_nodes", moved}, {"timings", timings}});
     else
         fmt::print("{}: {} nodes moved\n", options.output.file.string(), moved);
     return exit_done;

@@ -14,17 +14,18 @@ struct Options {
 };
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
     const Stopwatch elevating;
-    const CurvedMesh mesh = elevate(input, options.order);
+    const CurvedMesh mesh = elevate(input, options.order, context);
     timings["elevate"] = elevating.seconds();
     const auto quality = certify_for(options.output, mesh, context, timings);
     write_output(options.output, mesh, quality ? &*quality : nullptr, nullptr, timings);
     finish_timings(timings, watch);
     if (invocation.common.json)
-        fmt::print("{}\n", Json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}}).dump(2));
+        print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}});
     else
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
     return exit_done;

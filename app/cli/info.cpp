@@ -40,6 +40,7 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
     for (const PhysicalGroup& group : topology.groups()) {
         const auto nodes = topology.find_group_nodes(MeshTopology::display_name(group));
         groups.push_back({{"name", group.name},
+                          {"used_as", MeshTopology::display_name(group)},
                           {"dimension", group.dimension},
                           {"tag", group.tag},
                           {"cells", cells_of_group(topology, group)},
@@ -55,7 +56,7 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
                            {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
                            {"notes", input.notes},
                            {"timings", timings}};
-        fmt::print("{}\n", json.dump(2));
+        print_json(json);
         return exit_done;
     }
     fmt::print("{} ({})\n", file.string(), to_string(input.format));
@@ -66,9 +67,8 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
                box(0, 1), box(1, 1), box(0, 2), box(1, 2));
     for (const Json& group : groups)
         fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
-                   group["name"].get<std::string>().empty() ? "unnamed" : group["name"].get<std::string>(),
-                   group["dimension"].get<int>(), group["tag"].get<int>(), group["cells"].get<long>(),
-                   group["nodes"].get<std::size_t>());
+                   group["used_as"].get<std::string>(), group["dimension"].get<int>(), group["tag"].get<int>(),
+                   group["cells"].get<long>(), group["nodes"].get<std::size_t>());
     return exit_done;
 }
 

@@ -17,8 +17,10 @@ using namespace curvewright::cli;
 
 std::stop_source interrupt;
 
-void on_interrupt(int) {
-    interrupt.request_stop();
+/// The first signal asks the work to stop; a second one ends the program at once, whatever it is doing.
+void on_interrupt(int signal) {
+    std::signal(signal, SIG_DFL);
+    interrupt.request_stop();  // an atomic operation: no callbacks are registered
 }
 
 int run(const Invocation& invocation) {
@@ -54,7 +56,9 @@ int main(int argc, char** argv) {
         return app.exit(error) == 0 ? exit_done : exit_wrong_usage;
     }
     try {
-        return run(invocation);
+        const int status = run(invocation);
+        if (std::fflush(stdout) != 0) throw InvalidInput("Standard output cannot be written.");
+        return status;
     } catch (const Cancelled&) {
         fmt::print(stderr, "Cancelled; nothing was written.\n");
         return exit_cancelled;

@@ -9,6 +9,10 @@
 
 namespace curvewright::cli {
 
+void print_json(const Json& json) {
+    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
+}
+
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh) {
     const MeshTopology& topology = mesh.topology();
     return {{"file", file.string()},          {"dimension", topology.dimension()},
@@ -69,6 +73,13 @@ QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& 
     return report;
 }
 
+QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, const TaskContext& context,
+                             Json& timings) {
+    QualityOptions options;
+    options.orientation_sign = original.orientation_sign;
+    return certify(mesh, context, timings, options);
+}
+
 bool is_assessable(const CurvedMesh& mesh) {
     try {
         require_assessable(mesh);
@@ -84,6 +95,18 @@ std::optional<QualityReport> certify_for(const OutputOptions& output, const Curv
     const bool has_place = format == MeshFormat::vtu || format == MeshFormat::vtk;
     if (!has_place || !is_assessable(mesh)) return std::nullopt;
     return certify(mesh, context, timings);
+}
+
+void check_output(const OutputOptions& output) {
+    const std::string name = output.file.string();
+    if (!output.format && !format_of_suffix(output.file))
+        throw InvalidInput(name, 0, "the suffix is none of .msh, .vtu and .vtk; --format tells the format otherwise.");
+    const auto folder = output.file.has_parent_path() ? output.file.parent_path() : std::filesystem::path(".");
+    std::error_code error;
+    if (!std::filesystem::is_directory(folder, error))
+        throw InvalidInput(name, 0, fmt::format("there is no folder {} to write it to.", folder.string()));
+    if (std::filesystem::is_directory(output.file, error))
+        throw InvalidInput(name, 0, "there is a folder of that name; a file was expected.");
 }
 
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,

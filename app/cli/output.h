@@ -15,6 +15,9 @@ namespace curvewright::cli {
 
 using Json = nlohmann::ordered_json;
 
+/// Prints one JSON object on standard output. Bytes that are no UTF-8 (in file or group names) become U+FFFD.
+void print_json(const Json& json);
+
 /// "mesh": file, dimension, order, elements, nodes, interior_nodes.
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh);
 /// "scaled_jacobian": min, mean, max, valid, invalid, undecided.
@@ -33,12 +36,18 @@ ReadResult read_input(const std::filesystem::path& file, const Invocation& invoc
 /// assess_quality, timed as "certify" (added to what is there).
 QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
                       const QualityOptions& options = {});
+/// certify of what became of `original`: judged with its orientation.
+QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, const TaskContext& context,
+                             Json& timings);
 /// Whether the quality of the mesh can be assessed at all.
 bool is_assessable(const CurvedMesh& mesh);
 /// The quality that belongs in the output: none for MSH, which has no place for it, and for meshes that are not
 /// assessable.
 std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
                                          const TaskContext& context, Json& timings);
+/// Throws InvalidInput if the output cannot be: unknown suffix, no such folder, a folder in the file's place. To be
+/// called before the work.
+void check_output(const OutputOptions& output);
 /// Writes the mesh, timed as "write". quality may be null.
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
                   const Coordinates* reference, Json& timings);

@@ -40,7 +40,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                            {"scaled_jacobian", summary_json(report.summary)},
                            {"worst", worst_json(mesh, report)},
                            {"timings", timings}};
-        fmt::print("{}\n", json.dump(2));
+        print_json(json);
     } else {
         fmt::print("{}: {}\n{}\n", options.mesh.string(), mesh_line(mesh), summary_line(report.summary));
         for (Index element : report.worst(10)) {

@@ -47,12 +47,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     timings["render"] = rendering.seconds();
     finish_timings(timings, watch);
     if (invocation.common.json)
-        fmt::print("{}\n",
-                   Json({{"mesh", mesh_json(options.mesh, mesh)},
-                         {"picture",
-                          {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
-                         {"timings", timings}})
-                       .dump(2));
+        print_json(
+            {{"mesh", mesh_json(options.mesh, mesh)},
+             {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
+             {"timings", timings}});
     else
         fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
     return exit_done;

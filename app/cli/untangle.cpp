@@ -22,16 +22,19 @@ struct Options {
 /// A trace file that becomes visible when it is complete.
 class TraceFile {
   public:
-    explicit TraceFile(const std::filesystem::path& file) : file_(file), stream_(file_.path()), writer_(stream_) {
+    explicit TraceFile(const std::filesystem::path& file)
+        : name_(file.string()), file_(file), stream_(file_.path()), writer_(stream_) {
         if (!stream_) throw InvalidInput(file.string(), 0, "the file cannot be written.");
     }
     UntangleObserver* observer() { return &writer_; }
     void commit() {
         stream_.close();
+        if (!stream_) throw InvalidInput(name_, 0, "the trace could not be written completely (is the disk full?).");
         file_.commit();
     }
 
   private:
+    std::string name_;
     AtomicFile file_;
     std::ofstream stream_;
     TraceWriter writer_;
@@ -42,6 +45,7 @@ Json shape_json(const ShapeSummary& shape) {
 }
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -54,11 +58,11 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
         untangle_signed_angles(input, options.signed_angles, trace ? trace->observer() : nullptr, context);
     timings["untangle"] = untangling.seconds();
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
-    const QualityReport after = certify(mesh, context, timings);
+    const QualityReport after = certify_result(mesh, before, context, timings);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), context);
-    write_output(options.output, mesh, &after, &input.coordinates(), timings);
     if (trace) trace->commit();
+    write_output(options.output, mesh, &after, &input.coordinates(), timings);
     finish_timings(timings, watch);
 
     if (invocation.common.json) {
@@ -68,12 +72,13 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
             {"beta", options.signed_angles.beta},
             {"passes", result.passes},
             {"stopped", to_string(result.reason)},
+            {"orientation", to_string(before.orientation)},
             {"scaled_jacobian", summary_json(after.summary)},
             {"shape", shape_json(shape)},
             {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
             {"worst", worst_json(mesh, after)},
             {"timings", timings}};
-        fmt::print("{}\n", json.dump(2));
+        print_json(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
@@ -94,8 +99,14 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     command
         ->add_option("--beta", options->signed_angles.beta,
                      "Weight of the angles against the displacement, in (0, 1]; small for stretched layers")
+        ->check([](const std::string& text) {
+            const double beta = std::strtod(text.c_str(), nullptr);
+            return beta > 0.0 && beta <= 1.0 ? std::string() : "beta must be greater than 0 and at most 1";
+        })
         ->capture_default_str();
-    command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")->capture_default_str();
+    command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")
+        ->check(CLI::Range(1, 1000000))
+        ->capture_default_str();
     command->add_flag("--reject-worse-pass", options->signed_angles.reject_worse_pass,
                       "Take back a pass that lowers the certified quality, and stop there");
     command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")

@@ -31,6 +31,7 @@ void report_nodes(const MeshTopology& topology, const std::vector<Index>& nodes,
 }
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -42,7 +43,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     timings["weights"] = result.report.weights_seconds;
     timings["solve"] = result.report.solve_seconds;
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
-    const QualityReport after = certify(mesh, context, timings);
+    const QualityReport after = certify_result(mesh, before, context, timings);
     write_output(options.output, mesh, &after, &input.coordinates(), timings);
     finish_timings(timings, watch);
 
@@ -54,6 +55,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     }
     if (invocation.common.json) {
         const Json json = {{"mesh", mesh_json(options.output.file, mesh)},
+                           {"orientation", to_string(before.orientation)},
                            {"scaled_jacobian", summary_json(after.summary)},
                            {"before", {{"scaled_jacobian", summary_json(before.summary)}}},
                            {"worst", worst_json(mesh, after)},
@@ -67,7 +69,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                            {"outside_hull", tags_json(mesh.topology(), report.outside_hull)},
                            {"degenerate", tags_json(mesh.topology(), report.degenerate)},
                            {"timings", timings}};
-        fmt::print("{}\n", json.dump(2));
+        print_json(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n{}\n", summary_line(before.summary), summary_line(after.summary),
@@ -96,6 +98,7 @@ void add_warp(CLI::App& app, Invocation& invocation) {
         ->add_option("--distance-power", options->warp.distance_power,
                      "A neighbour at distance r counts r^-K; 0 = all alike, as in the thesis")
         ->type_name("K")
+        ->check(CLI::Range(0.0, 8.0))
         ->capture_default_str();
     command
         ->add_option_function<std::string>(

@@ -75,14 +75,13 @@ const ExtendedMatrix& lagrange_to_bernstein(ElementType simplex) {
     static std::mutex mutex;
     static std::map<ElementType, ExtendedMatrix> cache;
     const std::lock_guard lock(mutex);
-    auto [entry, is_new] = cache.try_emplace(simplex);
-    if (!is_new) return entry->second;
+    const auto known = cache.find(simplex);
+    if (known != cache.end()) return known->second;
 
     const int p = simplex.order, dim = dimension(simplex.shape);
     const BernsteinSimplex& form = BernsteinSimplex::get(dim, p);
     const auto& lattice = reference_element(simplex).lattice;
-    ExtendedMatrix& matrix = entry->second;
-    matrix.resize(form.size(), form.size());
+    ExtendedMatrix matrix(form.size(), form.size());
     for (int node = 0; node < form.size(); ++node) {
         const auto& point = lattice[node];
         const std::array<int, 4> alpha{p - point[0] - point[1] - point[2], point[0], point[1], point[2]};
@@ -108,7 +107,7 @@ const ExtendedMatrix& lagrange_to_bernstein(ElementType simplex) {
             matrix(c, node) = static_cast<long double>(polynomial[c]) /
                               (static_cast<long double>(divisor) * static_cast<long double>(form.multinomials()[c]));
     }
-    return matrix;
+    return cache.emplace(simplex, std::move(matrix)).first->second;
 }
 
 }  // namespace curvewright

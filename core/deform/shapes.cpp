@@ -110,8 +110,9 @@ Point project(const SnapToRevolution& shape, const Point& x) {
         const auto lower = upper - 1;
         radius = (*lower)[1] + ((*upper)[1] - (*lower)[1]) * (height - (*lower)[0]) / ((*upper)[0] - (*lower)[0]);
     }
-    // A node on the axis stays there: it has no radial direction, and scaling by any factor leaves it.
-    const double factor = length > 0.0 ? radius / length : radius;
+    if (length == 0.0 && radius != 0.0)
+        throw InvalidInput("it lies on the axis of the revolution and has no direction to be projected in");
+    const double factor = length > 0.0 ? radius / length : 0.0;
     Point result = x;
     result[i] *= factor;
     result[j] *= factor;

@@ -65,7 +65,14 @@ std::string read_compressed(const fs::path& file) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)), temporary_(temporary_name(target_)) {}
+AtomicFile::AtomicFile(fs::path target) : target_(std::move(target)) {
+    std::error_code error;
+    // A link stays a link: the file that it leads to is replaced.
+    if (fs::is_symlink(target_, error)) target_ = fs::weakly_canonical(target_, error);
+    // A device or a pipe cannot be replaced by a file: it gets the content when that is complete.
+    is_stream_ = fs::exists(target_, error) && fs::is_other(target_, error);
+    temporary_ = temporary_name(is_stream_ ? fs::temp_directory_path() / target_.filename() : target_);
+}
 
 AtomicFile::~AtomicFile() {
     std::error_code ignored;
@@ -76,6 +83,14 @@ void AtomicFile::commit() {
     std::error_code error;
     if (fs::is_directory(target_, error))
         throw InvalidInput(target_.string(), 0, "the file cannot be written (there is a folder of that name).");
+    if (is_stream_) {
+        std::ifstream source(temporary_, std::ios::binary);
+        std::ofstream stream(target_, std::ios::binary);
+        if (source.peek() != std::ifstream::traits_type::eof()) stream << source.rdbuf();
+        stream.close();
+        if (!stream) throw InvalidInput(target_.string(), 0, "the file cannot be written.");
+        return;  // the destructor removes the temporary file
+    }
     fs::rename(temporary_, target_, error);
     if (error)
         throw InvalidInput(target_.string(), 0, fmt::format("the file cannot be written ({}).", error.message()));

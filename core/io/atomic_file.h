@@ -7,7 +7,8 @@
 namespace curvewright {
 
 /// A file that appears complete or not at all: the writer fills path() (in the target's folder, same suffix), commit()
-/// renames it to the target. Without commit() the destructor removes it.
+/// renames it to the target. Without commit() the destructor removes it. Symbolic links are followed; a target that is no
+/// regular file (a device, a pipe) gets the content copied instead.
 class AtomicFile {
   public:
     explicit AtomicFile(std::filesystem::path target);
@@ -21,7 +22,7 @@ class AtomicFile {
 
   private:
     std::filesystem::path target_, temporary_;
-    bool is_committed_ = false;
+    bool is_committed_ = false, is_stream_ = false;
 };
 
 /// Writes text through an AtomicFile. Throws InvalidInput that names the file.

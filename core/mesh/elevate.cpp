@@ -26,7 +26,7 @@ Eigen::MatrixXd corner_weights(ElementType type) {
 
 }  // namespace
 
-CurvedMesh elevate(const CurvedMesh& mesh, int order) {
+CurvedMesh elevate(const CurvedMesh& mesh, int order, const TaskContext& context) {
     if (order < 1 || order > max_order)
         throw Unsupported(fmt::format("Order {} is not supported; orders 1 to {} are.", order, max_order));
     const MeshTopology& old = mesh.topology();
@@ -79,6 +79,7 @@ CurvedMesh elevate(const CurvedMesh& mesh, int order) {
         for (int d = 0; d < dimension(shape); ++d) scale *= order;
         NodeKey key;
         for (Index cell = 0; cell < source.size(); ++cell) {
+            if (cell % 1024 == 0) context.report("Raising the order", static_cast<double>(cell) / source.size());
             const Index* old_nodes = source.nodes.data() + static_cast<std::size_t>(cell) * old_count;
             for (Eigen::Index i = 0; i < weights.rows(); ++i) {
                 key.clear();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
 
 namespace curvewright {
@@ -8,7 +9,7 @@ namespace curvewright {
 /// Lagrange cell of that order whose nodes are the affine (multilinear) images of the lattice. Corner nodes and all
 /// elements, entities and groups keep their tags; new nodes are shared between neighbours, get the tags after the
 /// highest one and the entity of the lowest-dimensional cell that they lie on. Nodes of no cell are kept, nodes of the
-/// old order that are not corners go. Throws Unsupported for orders outside 1..10 and for pyramids above order 1.
-CurvedMesh elevate(const CurvedMesh& mesh, int order);
+/// old order that are not corners go. Throws Unsupported for orders outside 1..10 and for pyramids above order 1, Cancelled.
+CurvedMesh elevate(const CurvedMesh& mesh, int order, const TaskContext& context = {});
 
 }  // namespace curvewright

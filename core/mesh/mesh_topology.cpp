@@ -1,6 +1,7 @@
 #include "core/mesh/mesh_topology.h"
 
 #include <algorithm>
+#include <limits>
 #include <set>
 
 #include <fmt/format.h>
@@ -17,6 +18,11 @@ struct FacetKey {
     Facet facet;
 };
 
+std::vector<Index> sorted(std::vector<Index> nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    return nodes;
+}
+
 }  // namespace
 
 MeshTopology::MeshTopology(MeshData data) : data_(std::move(data)) {
@@ -26,6 +32,12 @@ MeshTopology::MeshTopology(MeshData data) : data_(std::move(data)) {
 }
 
 void MeshTopology::check_nodes_and_blocks() {
+    constexpr auto most = static_cast<std::size_t>(std::numeric_limits<Index>::max());
+    std::size_t cells = 0;
+    for (const ElementBlock& block : data_.blocks) cells += block.tags.size();
+    if (data_.node_tags.size() > most || cells > most)
+        throw Unsupported(fmt::format("The mesh has {} nodes and {} cells; at most {} of each are supported.",
+                                      data_.node_tags.size(), cells, most));
     node_of_tag_.reserve(data_.node_tags.size());
     for (Index node = 0; node < node_count(); ++node) {
         const NodeTag tag = data_.node_tags[node];
@@ -104,7 +116,14 @@ void MeshTopology::find_boundary() {
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
-        if (end == i + 1) boundary_facets_.push_back(keys[i].facet);
+        // Facets with the same corners but other nodes between them do not meet: each is on the boundary, so that
+        // nothing pulls them apart further.
+        bool meet = end > i + 1;
+        if (meet && order_ > 1) {
+            const std::vector<Index> nodes = sorted(facet_nodes(keys[i].facet));
+            for (std::size_t k = i + 1; k < end && meet; ++k) meet = sorted(facet_nodes(keys[k].facet)) == nodes;
+        }
+        for (std::size_t k = i; k < end && !meet; ++k) boundary_facets_.push_back(keys[k].facet);
         i = end;
     }
     std::sort(boundary_facets_.begin(), boundary_facets_.end(), [](const Facet& a, const Facet& b) {

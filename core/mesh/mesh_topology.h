@@ -104,7 +104,7 @@ class MeshTopology {
     /// The type that all elements share; none if the mesh mixes types or is empty.
     std::optional<ElementType> uniform_type() const { return uniform_type_; }
 
-    /// Facets that belong to one element only, in the order of the elements.
+    /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the elements.
     const std::vector<Facet>& boundary_facets() const { return boundary_facets_; }
     /// Positions (in the element) to nodes: the facet's nodes in its own order.
     std::vector<Index> facet_nodes(Facet facet) const;

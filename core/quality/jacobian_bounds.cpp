@@ -61,8 +61,8 @@ struct JacobianBounds::Tables {
     const BernsteinSimplex* jacobian_form = nullptr;
     /// Per direction, (size of degree p - 1) × nodes: scaled Bézier coefficients of the derivative.
     std::array<Eigen::MatrixXd, 3> derivative;
-    /// Largest row sum of the absolute values of the derivative matrices (before scaling by the multinomials), and of the
-    /// two terms that each entry is the difference of.
+    /// Largest row sum of the absolute values of the derivative matrices (before scaling by the multinomials), and of
+    /// the two terms that each entry is the difference of.
     double row_sum = 0.0, row_sum_of_terms = 0.0;
     std::vector<int> linear_times_linear, linear_times_minor;
     std::vector<double> inverse_multinomials;  ///< of the Jacobian's form
@@ -281,9 +281,12 @@ ElementQuality JacobianBounds::bound(const Eigen::Ref<const Eigen::MatrixX3d>& x
     // The sign is judged before scaling back, which may round bounds of tiny or huge elements to 0 or infinity.
     quality.min_lower = low.bound;
     quality.min_upper = low.attained + low.error;
-    if (quality.min_lower > 0.0) quality.validity = Validity::valid;
-    else if (quality.min_upper < 0.0) quality.validity = Validity::invalid;
-    else quality.validity = Validity::undecided;
+    if (quality.min_lower > 0.0)
+        quality.validity = Validity::valid;
+    else if (quality.min_upper < 0.0)
+        quality.validity = Validity::invalid;
+    else
+        quality.validity = Validity::undecided;
     quality.max_lower = -high.attained - high.error;
     quality.max_upper = -high.bound;
     for (double* bound : {&quality.min_lower, &quality.min_upper, &quality.max_lower, &quality.max_upper})

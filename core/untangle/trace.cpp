@@ -69,7 +69,7 @@ TraceWriter::~TraceWriter() = default;
 
 void TraceWriter::on_event(const UntangleEvent& event) {
     if (const auto* started = std::get_if<event::Started>(&event)) topology_ = started->mesh->shared_topology();
-    stream_ << std::visit(Describe{*topology_}, event).dump() << '\n';
+    stream_ << std::visit(Describe{*topology_}, event).dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 }  // namespace curvewright

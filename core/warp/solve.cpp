@@ -1,8 +1,11 @@
 #include "core/warp/solve.h"
 
 #include <algorithm>
-#include <atomic>
+#include <chrono>
 #include <cmath>
+#include <future>
+#include <memory>
+#include <thread>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,13 +46,21 @@ class PollingIdentity {
     template <class Vector>
     const Vector& solve(const Vector& b) const {
         context_->check();
+        // Nobody knows how many iterations it takes: the fraction approaches 1 as they go on. Only one column reports.
+        if (reports_ && ++calls_ % 16 == 0 && context_->progress)
+            context_->progress("Solving", 1.0 - 1.0 / (1.0 + calls_ / 200.0));
         return b;
     }
     Eigen::ComputationInfo info() const { return Eigen::Success; }
-    void set_context(const TaskContext& context) { context_ = &context; }
+    void set_context(const TaskContext& context, bool reports) {
+        context_ = &context;
+        reports_ = reports;
+    }
 
   private:
     const TaskContext* context_ = nullptr;
+    bool reports_ = false;
+    mutable int calls_ = 0;
 };
 
 double relative_residual(const RowMatrix& matrix, const Eigen::MatrixXd& solution, const Eigen::MatrixXd& rhs) {
@@ -68,12 +79,14 @@ Eigen::MatrixXd solve_iteratively(const RowMatrix& matrix, const Eigen::MatrixXd
     Eigen::MatrixXd solution = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
     std::vector<int> iterations(static_cast<std::size_t>(rhs.cols()), 0);
     context.report("Solving", 0.0);
-    parallel_for(static_cast<std::size_t>(rhs.cols()), 1, context, "Solving", [&](std::size_t begin, std::size_t end) {
+    const auto caller = std::this_thread::get_id();
+    parallel_for(static_cast<std::size_t>(rhs.cols()), 1, context, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto column = static_cast<Eigen::Index>(i);
             if (rhs.col(column).isZero(0.0)) continue;
             Eigen::BiCGSTAB<RowMatrix, PollingIdentity> solver;
-            solver.preconditioner().set_context(context);
+            // Progress goes out on the caller's thread only.
+            solver.preconditioner().set_context(context, std::this_thread::get_id() == caller);
             solver.setTolerance(options.residual_tolerance);
             solver.setMaxIterations(options.max_iterations);
             solver.compute(matrix);
@@ -90,17 +103,30 @@ Eigen::MatrixXd solve_iteratively(const RowMatrix& matrix, const Eigen::MatrixXd
 Eigen::MatrixXd solve_directly(const RowMatrix& matrix, const Eigen::MatrixXd& rhs, SolveReport& report,
                                const TaskContext& context) {
     context.report("Factorising", 0.0);
-    const Eigen::SparseMatrix<double, Eigen::ColMajor> columns = matrix;
-    Eigen::SparseLU<Eigen::SparseMatrix<double, Eigen::ColMajor>> solver;
-    solver.analyzePattern(columns);
-    context.check();
-    solver.factorize(columns);
-    context.check();
-    if (solver.info() != Eigen::Success)
+    // The factorisation cannot be interrupted. It works on data of its own in a thread that is left behind when the
+    // caller asks to stop; it then ends by itself and frees what it holds.
+    struct Work {
+        Eigen::SparseMatrix<double, Eigen::ColMajor> matrix;
+        Eigen::MatrixXd rhs, solution;
+        bool is_singular = false;
+    };
+    const auto work = std::make_shared<Work>();
+    work->matrix = matrix;
+    work->rhs = rhs;
+    std::packaged_task<void()> task([work] {
+        Eigen::SparseLU<Eigen::SparseMatrix<double, Eigen::ColMajor>> solver(work->matrix);
+        work->is_singular = solver.info() != Eigen::Success;
+        if (!work->is_singular) work->solution = solver.solve(work->rhs);
+    });
+    std::future<void> done = task.get_future();
+    std::thread(std::move(task)).detach();
+    while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) context.check();
+    done.get();
+    if (work->is_singular)
         throw SolverFailure(
             "The matrix of the warp is singular: some interior nodes are not tied to the boundary by "
             "their weights.");
-    const Eigen::MatrixXd solution = solver.solve(rhs);
+    const Eigen::MatrixXd solution = std::move(work->solution);
     report.solver = SolverChoice::direct;
     report.iterations = 0;
     report.residual = relative_residual(matrix, solution, rhs);

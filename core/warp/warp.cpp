@@ -1,5 +1,7 @@
 #include "core/warp/warp.h"
 
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -40,6 +42,13 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     WarpResult result{mesh.coordinates(), {}};
     for (Index node : topology.boundary_nodes()) result.coordinates.row(node) = boundary_positions.row(node);
     if (!result.coordinates.allFinite()) throw InvalidInput("A boundary node's new position is not finite.");
+    if (dim == 2)
+        for (Index node : topology.boundary_nodes())
+            if (result.coordinates(node, 2) != mesh.coordinates()(node, 2))
+                throw InvalidInput(fmt::format(
+                    "Boundary node {} of the 2D mesh would leave its plane (z = {} instead of {}); "
+                    "a deformation of a 2D mesh must keep z.",
+                    topology.node_tag(node).value, result.coordinates(node, 2), mesh.coordinates()(node, 2)));
     WarpReport& report = result.report;
     report.interior_nodes = static_cast<Index>(interior.size());
     if (interior.empty()) {
@@ -64,6 +73,9 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     std::vector<Index> unknown(static_cast<std::size_t>(topology.node_count()), -1);
     for (std::size_t i = 0; i < interior.size(); ++i) unknown[interior[i]] = static_cast<Index>(i);
     const auto count = static_cast<Eigen::Index>(interior.size());
+    if (sets.nodes.size() + interior.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw Unsupported(fmt::format("The warp of this mesh has {} weights; at most {} are supported.",
+                                      sets.nodes.size(), std::numeric_limits<int>::max()));
     Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(count, count);
     Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(count, dim);
     matrix.reserve(static_cast<Eigen::Index>(sets.nodes.size()) + count);

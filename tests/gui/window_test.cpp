@@ -329,6 +329,10 @@ class WindowTest : public QObject {
         QTest::qWait(50);
         QCOMPARE(test.window->view().grabFramebuffer().pixelColor(2, 2), theme().color(QStringLiteral("view")));
         QVERIFY(theme().color(QStringLiteral("view")).lightness() < 64);
+        // The ground of the legend, which reaches the right border, follows as well.
+        const QImage dark = test.window->view().grabFramebuffer();
+        QVERIFY(once.pixelColor(once.width() - 2, once.height() / 2).lightness() > 192);
+        QVERIFY(dark.pixelColor(dark.width() - 2, dark.height() / 2).lightness() < 64);
         test.window->action(CommandId::theme_light)->trigger();
     }
 };

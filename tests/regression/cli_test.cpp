@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <fstream>
 #include <sstream>
+#include <thread>
+
+#include <sys/stat.h>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -224,7 +227,6 @@ TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
     write(deformation, R"({"operations": [{"group": "inner", "type": "twist"}]})");
     expect_bad_input({"warp", annulus, "--deformation", deformation, "-o", out, "--quiet"}, "twist");
     expect_bad_input({"elevate", annulus, "--order", "11", "-o", out}, "orders 1 to 10");
-    expect_bad_input({"untangle", circle, "-o", out, "--beta", "7"}, "beta is 7");
     const std::string p4 = folder / "p4.msh";
     ASSERT_EQ(cli({"elevate", annulus, "--order", "4", "-o", p4}).status, 0);
     expect_bad_input({"untangle", p4, "-o", out}, "order 2 or 3; this mesh has P4 triangle elements");
@@ -244,6 +246,59 @@ TEST_F(CommandLine, FailedCommandLeavesAnExistingOutputAlone) {
     EXPECT_EQ(read(out), "precious");
 }
 
+TEST_F(CommandLine, AMeshTurnedInsideOutIsNotValid) {
+    const std::string deformation = folder / "mirror.json", out = folder / "mirrored.msh";
+    write(deformation,
+          R"({"operations": [{"group": "boundary", "type": "scale", "center": [0, 0, 0], "factors": [-1, 1, 1]}]})");
+    const ProcessResult result = cli({"warp", circle, "--deformation", deformation, "-o", out, "--json"});
+    EXPECT_EQ(result.status, 3);
+    EXPECT_EQ(Json::parse(result.output)["scaled_jacobian"]["invalid"], 1660);
+}
+
+TEST_F(CommandLine, DeformationOutOfThePlaneIsNamed) {
+    const std::string deformation = folder / "lift.json", out = folder / "lifted.msh";
+    write(deformation, R"({"operations": [{"group": "circle", "type": "translate", "vector": [0, 0, 0.1]}]})");
+    expect_bad_input({"warp", circle, "--deformation", deformation, "-o", out}, "must keep z");
+}
+
+TEST_F(CommandLine, NamesThatAreNoUtf8DoNotBreakJson) {
+    const std::string out = folder / "caf\xe9.msh";
+    const ProcessResult result = cli({"deform", annulus, "--deformation", annulus_deformation, "-o", out, "--json"});
+    EXPECT_EQ(result.status, 0) << result.errors;
+    EXPECT_TRUE(Json::accept(result.output));
+    EXPECT_TRUE(exists(out));
+}
+
+TEST_F(CommandLine, LinksAreFollowedAndPipesAreFed) {
+    const std::string real = folder / "real.csv", link = folder / "link.csv", pipe = folder / "pipe.csv";
+    write(real, "old");
+    std::filesystem::create_symlink(real, link);
+    ASSERT_EQ(cli({"quality", annulus, "--csv", link, "--quiet"}).status, 0);
+    EXPECT_TRUE(std::filesystem::is_symlink(link));
+    EXPECT_NE(read(real).find("element,scaled_jacobian"), std::string::npos);
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    std::string received;
+    std::thread reader([&] { received = read(pipe); });
+    ASSERT_EQ(cli({"quality", annulus, "--csv", pipe, "--quiet"}).status, 0);
+    reader.join();
+    EXPECT_EQ(received, read(real));
+    EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST_F(CommandLine, DemonstrationReportsTheResults) {
+    const std::string out = folder / "out";
+    const ProcessResult result = testing::run_program({"/bin/bash", CURVEWRIGHT_DEMO, out, CURVEWRIGHT_CLI});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const std::string report = read(out + "/report.md");
+    EXPECT_NE(report.find("| annulus | boundary moved | -0.222 | 0.634 | 28 | 2 |"), std::string::npos) << report;
+    EXPECT_NE(report.find("| annulus | untangled, signed angles, beta 0.7 | 0.456 | 0.656 | 30 | 0 |"),
+              std::string::npos)
+        << report;
+    EXPECT_NE(report.find("| moving_circle | warped, convex weights | 0.577 | 0.96"), std::string::npos) << report;
+    EXPECT_TRUE(exists(out + "/annulus_untangled.png"));
+    EXPECT_TRUE(exists(out + "/moving_sphere_small_warped.vtu"));
+}
+
 TEST_F(CommandLine, WrongUsageEndsWithTwo) {
     for (const std::vector<std::string>& arguments : std::vector<std::vector<std::string>>{
              {},
@@ -254,6 +309,9 @@ TEST_F(CommandLine, WrongUsageEndsWithTwo) {
              {"warp", annulus, "-o", "x.msh"},
              {"warp", annulus, "--deformation", annulus_deformation, "-o", "x.msh", "--weights", "heavy"},
              {"untangle", annulus, "-o", "x.msh", "--method", "magic"},
+             {"untangle", annulus, "-o", "x.msh", "--beta", "7"},
+             {"untangle", annulus, "-o", "x.msh", "--max-passes", "0"},
+             {"warp", annulus, "--deformation", annulus_deformation, "-o", "x.msh", "--distance-power", "9"},
              {"render", annulus, "-o", "x.png", "--size", "big"},
              {"elevate", annulus, "-o", "x.msh"}}) {
         const ProcessResult result = cli(arguments);

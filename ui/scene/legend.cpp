@@ -110,6 +110,9 @@ OverlayText& Legend::next_text() {
 
 void Legend::finish() {
     for (std::size_t i = used_texts_; i < texts_.size(); ++i) texts_[i]->hide();
+    // The arrays are filled in place: unless told, the mapper goes on drawing what it has on the graphics card.
+    points_->Modified();
+    colors_->Modified();
     data_->Initialize();
     data_->SetPoints(points_);
     data_->SetPolys(cells_);

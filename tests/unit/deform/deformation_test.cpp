@@ -87,7 +87,8 @@ TEST(Project, RadialShapes) {
     EXPECT_LT((project(cone, Point(0, 5, 3)) - Point(0, 3, 3)).norm(), 1e-15);
     EXPECT_LT((project(cone, Point(0, 5, -1)) - Point(0, 1, -1)).norm(), 1e-15);  // held beyond the ends
     EXPECT_LT((project(cone, Point(0, 5, 9)) - Point(0, 3, 9)).norm(), 1e-15);
-    EXPECT_LT((project(cone, Point(0, 0, 3)) - Point(0, 0, 3)).norm(), 1e-15);  // the axis stays
+    EXPECT_THROW(project(cone, Point(0, 0, 3)), InvalidInput);
+    EXPECT_EQ(project(SnapToRevolution{2, {{0, 0}, {1, 1}}}, Point(0, 0, 0)), Point(0, 0, 0));
     EXPECT_THROW(project(SnapToCircle{{1, 1, 0}, 2.0}, Point(1, 1, 3)), InvalidInput);
     EXPECT_THROW(project(SnapToSphere{{1, 1, 0}, 2.0}, Point(1, 1, 0)), InvalidInput);
     EXPECT_THROW(project(SnapToCylinder{{1, 0, 0}, {0, 1, 0}, 2.0}, Point(1, 3, 0)), InvalidInput);

@@ -74,6 +74,19 @@ TEST(MeshTopology, BoundaryFacetsOfMixedShapesMeet) {
     EXPECT_FALSE(topology.uniform_type());
 }
 
+TEST(MeshTopology, FacetsThatShareOnlyTheirCornersAreBoundary) {
+    // Two P2 triangles on the same two corners, each with a middle node of its own there.
+    MeshData data;
+    for (int i = 1; i <= 10; ++i) data.node_tags.push_back({i});
+    data.blocks.push_back({{Shape::triangle, 2}, 0, {0, 1, 2, 4, 5, 6, 1, 3, 2, 7, 8, 9}, {{1}, {2}}});
+    const MeshTopology cracked(data);
+    EXPECT_EQ(cracked.boundary_facets().size(), 6u);
+    EXPECT_TRUE(cracked.interior_nodes().empty());
+    data.blocks[0].nodes.back() = 5;
+    data.node_tags.pop_back();
+    EXPECT_EQ(MeshTopology(data).boundary_facets().size(), 4u);
+}
+
 TEST(MeshTopology, RefusesInconsistentData) {
     const MeshData good = square_mesh(1, 1).topology().data();
     const auto message = [&](const std::function<void(MeshData&)>& damage) -> std::string {
