@@ -16,12 +16,15 @@ std::filesystem::path to_path(const QString& path) {
     return {path.toStdU16String()};
 }
 
-/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason.
-MeshState make_state(CurvedMesh mesh, const TaskContext& context) {
+/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason. What became of another
+/// state of the same mesh is judged with that state's orientation: turned inside out is not valid.
+MeshState make_state(CurvedMesh mesh, const TaskContext& context, const MeshState* origin = nullptr) {
     MeshState state;
     state.mesh = std::make_shared<const CurvedMesh>(std::move(mesh));
+    QualityOptions options;
+    if (origin != nullptr && origin->quality) options.orientation_sign = origin->quality->orientation_sign;
     try {
-        state.quality = std::make_shared<const QualityReport>(assess_quality(*state.mesh, {}, context));
+        state.quality = std::make_shared<const QualityReport>(assess_quality(*state.mesh, options, context));
     } catch (const Unsupported& problem) {
         state.quality_note = QString::fromUtf8(problem.what());
     }
@@ -59,7 +62,8 @@ bool MeshJobs::open(OpenRequest request) {
             loaded = LoadedDeformation{deformation, QFileInfo(request.deformation_path).absoluteFilePath()};
             if (request.apply_deformation) {
                 const CurvedMesh& mesh = *opened.state.mesh;
-                deformed = make_state(mesh.with_coordinates(apply_deformation(mesh, *deformation)), context);
+                deformed =
+                    make_state(mesh.with_coordinates(apply_deformation(mesh, *deformation)), context, &opened.state);
                 deformed->applied_deformations << loaded->file_path;
             }
         }
@@ -90,7 +94,7 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
     if (applies_deformation) applied << document_.deformation()->file_path;
     return runner_.start(title, [this, start, applied, step = std::move(step)](const TaskContext& context) {
         Step result = step(*start.mesh, context);
-        MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context);
+        MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context, &start);
         state.applied_deformations = applied;
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
