@@ -32,7 +32,7 @@ install_packages() {
         echo "These packages are missing, and there is no sudo to install them: ${missing[*]}" >&2
         exit 1
     fi
-    echo "Installing ${#missing[@]} packages: ${missing[*]}"
+    echo "Installing ${missing[*]}"
     quietly "Updating the package lists" apt-update as_root apt-get update
     quietly "Installing packages" apt-install as_root env DEBIAN_FRONTEND=noninteractive \
         apt-get install -y --no-install-recommends "${missing[@]}"

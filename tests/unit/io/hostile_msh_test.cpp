@@ -89,7 +89,7 @@ TEST(HostileMsh, bad_input_is_told_with_line_and_reason) {
 
 TEST(HostileMsh, what_is_not_supported_is_told_by_name) {
     const std::vector<Broken> table = {
-        {"binary", std::string("$MeshFormat\n4.1 1 8\n\1\0\0\0", 28), "gmsh FILE -save -format msh41"},
+        {"binary", std::string("$MeshFormat\n4.1 1 8\n\1\0\0\0", 24), "gmsh FILE -save -format msh41"},
         {"version 1", "$NOD\n1\n1 0 0 0\n$ENDNOD\n", "MSH version 1"},
         {"version 3", "$MeshFormat\n3 0 8\n$EndMeshFormat\n", "MSH version 3 is not supported"},
         {"version 5", "$MeshFormat\n5.0 0 8\n$EndMeshFormat\n", "MSH version 5"},
