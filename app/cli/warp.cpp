@@ -52,6 +52,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
         report_nodes(mesh.topology(), report.outside_hull,
                      "outside the hull of the neighbours: affine weights were taken");
         report_nodes(mesh.topology(), report.degenerate, "with neighbours that do not span the space");
+        if (after.summary.invalid > 0)
+            fmt::print(stderr,
+                       "{} of {} elements are invalid; another --distance-power (0, 4) or --weights may help.\n",
+                       after.summary.invalid, after.summary.elements());
     }
     if (invocation.common.json) {
         const Json json = {{"mesh", mesh_json(options.output.file, mesh)},

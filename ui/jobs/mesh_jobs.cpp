@@ -16,8 +16,8 @@ std::filesystem::path to_path(const QString& path) {
     return {path.toStdU16String()};
 }
 
-/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason. What became of another
-/// state of the same mesh is judged with that state's orientation: turned inside out is not valid.
+/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason. What became of
+/// another state of the same mesh is judged with that state's orientation: turned inside out is not valid.
 MeshState make_state(CurvedMesh mesh, const TaskContext& context, const MeshState* origin = nullptr) {
     MeshState state;
     state.mesh = std::make_shared<const CurvedMesh>(std::move(mesh));
@@ -145,7 +145,8 @@ bool MeshJobs::warp(const WarpOptions& options) {
         if (!report.degenerate.empty())
             step.note += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
                              .arg(format_count(static_cast<long long>(report.degenerate.size())));
-        step.advice = tr("Untangle the elements that have tangled.");
+        step.advice =
+            tr("Elements have tangled: undo and try another distance power (0, 4) or other weights, or untangle.");
         step.coordinates = std::move(result.coordinates);
         return step;
     });
