@@ -38,7 +38,9 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const Deformation deformation = read_deformation(options.deformation, context);
     const QualityReport before = certify(input, context, timings);
     warn_about_orientation(before, invocation);
-    const WarpResult result = warp(input, apply_deformation(input, deformation), options.warp, context);
+    WarpOptions warp_options = options.warp;
+    warp_options.prescribed_nodes = prescribed_interior_nodes(input, deformation);
+    const WarpResult result = warp(input, apply_deformation(input, deformation), warp_options, context);
     timings["neighbours"] = result.report.neighbours_seconds;
     timings["weights"] = result.report.weights_seconds;
     timings["solve"] = result.report.solve_seconds;

@@ -126,6 +126,29 @@ void apply_table(const CurvedMesh& mesh, const NodeTable& table, const std::stri
 
 }  // namespace
 
+std::vector<Index> prescribed_interior_nodes(const CurvedMesh& mesh, const Deformation& deformation) {
+    const MeshTopology& topology = mesh.topology();
+    std::set<Index> prescribed;
+    if (const auto* operations = std::get_if<OperationList>(&deformation.content)) {
+        for (const Operation& operation : operations->operations) {
+            bool is_lower = false, is_domain = false;
+            for (const PhysicalGroup& group : topology.groups()) {
+                if (MeshTopology::display_name(group) != operation.group) continue;
+                (group.dimension < topology.dimension() ? is_lower : is_domain) = true;
+            }
+            const auto nodes = is_lower && !is_domain ? topology.find_group_nodes(operation.group) : std::nullopt;
+            if (nodes) prescribed.insert(nodes->begin(), nodes->end());
+        }
+    } else if (const auto& table = std::get<NodeTable>(deformation.content); !table.is_mesh) {
+        for (const NodeTable::Row& row : table.rows)
+            if (const auto node = topology.find_node(row.tag)) prescribed.insert(*node);
+    }
+    std::vector<Index> interior;
+    for (Index node : prescribed)
+        if (topology.is_interior_node(node)) interior.push_back(node);
+    return interior;
+}
+
 Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation) {
     Coordinates x = mesh.coordinates();
     const std::string where = deformation.source.empty() ? std::string() : deformation.source + ": ";

@@ -101,4 +101,10 @@ struct Deformation {
 /// an expression is wrong or gives no finite number, or a projection is undefined (node on the centre).
 Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation);
 
+/// Interior nodes that the deformation places on purpose, ascending: those of the groups of lower dimension than the
+/// mesh (an interface inside the domain) that its operations name, and those of a node table. A warp must keep them
+/// where the deformation puts them. Operations on "all" or on a group of elements move the interior only as a way to
+/// say how the boundary moves. Groups that do not exist are passed over; apply_deformation names them.
+std::vector<Index> prescribed_interior_nodes(const CurvedMesh& mesh, const Deformation& deformation);
+
 }  // namespace curvewright

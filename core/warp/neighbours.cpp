@@ -6,7 +6,7 @@
 
 namespace curvewright {
 
-NeighbourSets find_neighbours(const MeshTopology& topology, const TaskContext& context) {
+NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers, const TaskContext& context) {
     // Elements of each node, compressed by rows.
     std::vector<std::size_t> first(static_cast<std::size_t>(topology.node_count()) + 1, 0);
     for (Index element = 0; element < topology.element_count(); ++element)
@@ -17,19 +17,20 @@ NeighbourSets find_neighbours(const MeshTopology& topology, const TaskContext& c
     for (Index element = 0; element < topology.element_count(); ++element)
         for (Index node : topology.element_nodes(element)) elements[next[node]++] = element;
 
-    const auto& interior = topology.interior_nodes();
-    constexpr std::size_t grain = 512;
-    std::vector<std::vector<Index>> piece_nodes((interior.size() + grain - 1) / grain);
     NeighbourSets sets;
-    sets.offsets.assign(interior.size() + 1, 0);
-    parallel_for(interior.size(), grain, context, "Finding neighbours", [&](std::size_t begin, std::size_t end) {
+    sets.centers = std::move(centers);
+    const auto& nodes = sets.centers;
+    constexpr std::size_t grain = 512;
+    std::vector<std::vector<Index>> piece_nodes((nodes.size() + grain - 1) / grain);
+    sets.offsets.assign(nodes.size() + 1, 0);
+    parallel_for(nodes.size(), grain, context, "Finding neighbours", [&](std::size_t begin, std::size_t end) {
         std::vector<Index>& out = piece_nodes[begin / grain];
         std::vector<Index> set;
         for (std::size_t i = begin; i < end; ++i) {
             set.clear();
-            for (std::size_t k = first[interior[i]]; k < first[interior[i] + 1]; ++k)
+            for (std::size_t k = first[nodes[i]]; k < first[nodes[i] + 1]; ++k)
                 for (Index node : topology.element_nodes(elements[k]))
-                    if (node != interior[i]) set.push_back(node);
+                    if (node != nodes[i]) set.push_back(node);
             std::sort(set.begin(), set.end());
             set.erase(std::unique(set.begin(), set.end()), set.end());
             sets.offsets[i + 1] = set.size();

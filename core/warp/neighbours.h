@@ -8,17 +8,19 @@
 
 namespace curvewright {
 
-/// Neighbours of every interior node: all other nodes of the elements that contain it (thesis, 2.2).
+/// Neighbours of the free nodes: all other nodes of the elements that contain it (thesis, 2.2).
 struct NeighbourSets {
-    std::vector<std::size_t> offsets;  ///< interior nodes + 1
+    std::vector<Index> centers;        ///< the free nodes, ascending
+    std::vector<std::size_t> offsets;  ///< free nodes + 1
     std::vector<Index> nodes;          ///< ascending within a set
 
-    std::span<const Index> of(std::size_t interior) const {
-        return std::span(nodes).subspan(offsets[interior], offsets[interior + 1] - offsets[interior]);
+    std::span<const Index> of(std::size_t i) const {
+        return std::span(nodes).subspan(offsets[i], offsets[i + 1] - offsets[i]);
     }
 };
 
-/// One set per entry of topology.interior_nodes(), in that order. Multi-threaded.
-NeighbourSets find_neighbours(const MeshTopology& topology, const TaskContext& context = {});
+/// One set per entry of centers (ascending), in that order. Multi-threaded. Throws Cancelled.
+NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers,
+                              const TaskContext& context = {});
 
 }  // namespace curvewright

@@ -38,12 +38,19 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
         throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
     const int dim = topology.dimension();
-    const auto& interior = topology.interior_nodes();
+    std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
+    for (Index node : topology.boundary_nodes()) is_given[node] = true;
+    for (Index node : options.prescribed_nodes)
+        if (topology.is_interior_node(node)) is_given[node] = true;
+    std::vector<Index> interior;  // the nodes that follow
+    for (Index node : topology.interior_nodes())
+        if (!is_given[node]) interior.push_back(node);
     WarpResult result{mesh.coordinates(), {}};
-    for (Index node : topology.boundary_nodes()) result.coordinates.row(node) = boundary_positions.row(node);
+    for (Index node = 0; node < topology.node_count(); ++node)
+        if (is_given[node]) result.coordinates.row(node) = boundary_positions.row(node);
     if (!result.coordinates.allFinite()) throw InvalidInput("A boundary node's new position is not finite.");
     if (dim == 2)
-        for (Index node : topology.boundary_nodes())
+        for (Index node = 0; node < topology.node_count(); ++node)
             if (result.coordinates(node, 2) != mesh.coordinates()(node, 2))
                 throw InvalidInput(fmt::format(
                     "Boundary node {} of the 2D mesh would leave its plane (z = {} instead of {}); "
@@ -57,7 +64,7 @@ WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, c
     }
 
     Stopwatch watch;
-    const NeighbourSets sets = find_neighbours(topology, context);
+    const NeighbourSets sets = find_neighbours(topology, interior, context);
     report.neighbours_seconds = watch.seconds();
     watch = {};
     const WeightTable table = compute_weights(mesh, sets, options.weighting, options.distance_power, context);

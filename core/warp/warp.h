@@ -23,6 +23,10 @@ struct WarpOptions {
     /// of the patch count alike. Beyond the thesis: with 2 the near neighbours count more, so that small elements are
     /// stiffer than large ones and follow a moving boundary with less distortion, at the same cost.
     double distance_power = 2.0;
+    /// Interior nodes whose positions are given like those of the boundary, such as an interface inside the domain that
+    /// a deformation moves (see prescribed_interior_nodes in core/deform). Any order; boundary nodes among them are
+    /// ignored.
+    std::vector<Index> prescribed_nodes;
     SolverChoice solver = SolverChoice::automatic;
     /// Residual of the linear system, relative to its right-hand side, at which the iterative solver stops.
     double residual_tolerance = 1e-12;
@@ -30,7 +34,7 @@ struct WarpOptions {
 };
 
 struct WarpReport {
-    Index interior_nodes = 0;
+    Index interior_nodes = 0;  ///< that followed: without the prescribed ones
     /// Nodes for which convex weights do not exist (not strictly inside the hull of their neighbours); affine weights
     /// were taken for them.
     std::vector<Index> outside_hull;

@@ -142,7 +142,7 @@ PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 
 WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, Weighting weighting,
                             double distance_power, const TaskContext& context) {
-    const auto& interior = mesh.topology().interior_nodes();
+    const auto& interior = sets.centers;
     const int dim = mesh.topology().dimension();
     WeightTable table;
     table.weights.resize(sets.nodes.size());

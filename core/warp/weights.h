@@ -38,10 +38,10 @@ PatchStatus affine_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                            const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights);
 
-/// Weights of all interior nodes, one per entry of sets.nodes.
+/// Weights of all free nodes, one per entry of sets.nodes.
 struct WeightTable {
     std::vector<double> weights;
-    std::vector<PatchStatus> status;  ///< per interior node
+    std::vector<PatchStatus> status;  ///< per free node
 };
 /// Where convex weights do not exist, affine ones are taken. Multi-threaded. Throws Cancelled.
 WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, Weighting weighting,

@@ -127,7 +127,10 @@ bool MeshJobs::warp(const WarpOptions& options) {
     if (!why_not_warp().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
     return run_step(tr("Warping"), true, [loaded, options](const CurvedMesh& mesh, const TaskContext& context) {
-        WarpResult result = curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), options, context);
+        WarpOptions with_interfaces = options;
+        with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
+        WarpResult result =
+            curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
         const WarpReport& report = result.report;
         Step step;
         step.name = options.weighting == Weighting::convex ? tr("Warp, convex weights") : tr("Warp, affine weights");

@@ -1,5 +1,6 @@
 #include "core/deform/deformation.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -149,6 +150,38 @@ TEST(ApplyDeformation, WholeMeshMovesTheBoundaryOnlyAndMustBeComplete) {
         EXPECT_EQ(x(node, 0), mesh.coordinates()(node, 0) + (mesh.topology().is_boundary_node(node) ? 1 : 0));
     table.rows.erase(table.rows.begin() + mesh.topology().boundary_nodes().front());
     EXPECT_NE(failure(mesh, {table, "m.msh"}).find("m.msh: boundary node 11"), std::string::npos);
+}
+
+TEST(PrescribedInteriorNodes, AreThoseOfInterfacesAndTables) {
+    // A square with a line of cells through its middle, in a group of its own.
+    const CurvedMesh square = square_mesh(4, 2);
+    MeshData data = square.topology().data();
+    std::vector<Index> middle;
+    for (Index node = 0; node < square.topology().node_count(); ++node)
+        if (square.coordinates()(node, 0) == 0.5) middle.push_back(node);
+    std::sort(middle.begin(), middle.end(),
+              [&](Index a, Index b) { return square.coordinates()(a, 1) < square.coordinates()(b, 1); });
+    ElementBlock block{{Shape::line, 2}, 99, {}, {}};
+    for (std::size_t i = 0; i + 2 < middle.size(); i += 2) {
+        block.nodes.insert(block.nodes.end(), {middle[i], middle[i + 2], middle[i + 1]});
+        block.tags.push_back({static_cast<std::int64_t>(9000 + i)});
+    }
+    data.blocks.push_back(block);
+    data.entities.push_back({1, 99, {99}, {}, {}});
+    data.groups.push_back({1, 99, "interface"});
+    const CurvedMesh mesh(std::make_shared<const MeshTopology>(data), square.coordinates());
+    const auto prescribed = [&](const std::string& group) {
+        return prescribed_interior_nodes(mesh, {OperationList{{{group, Translate{}}}}, ""});
+    };
+    EXPECT_EQ(prescribed("interface").size(), middle.size() - 2);  // its ends are on the boundary
+    EXPECT_TRUE(prescribed("left").empty());
+    EXPECT_TRUE(prescribed("all").empty());
+    EXPECT_TRUE(prescribed("domain").empty());
+    EXPECT_TRUE(prescribed("nowhere").empty());
+    const NodeTag inside = mesh.topology().node_tag(middle[2]), outside = mesh.topology().node_tag(middle[0]);
+    EXPECT_EQ(prescribed_interior_nodes(mesh, {NodeTable{{{inside, {}}, {outside, {}}}, false}, ""}),
+              std::vector<Index>{middle[2]});
+    EXPECT_TRUE(prescribed_interior_nodes(mesh, {NodeTable{{{inside, {}}}, true}, ""}).empty());
 }
 
 TEST(ApplyDeformation, FaultsAreNamed) {

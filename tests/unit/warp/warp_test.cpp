@@ -158,6 +158,34 @@ TEST(Warp, MeshWithoutInteriorMovesItsBoundary) {
     EXPECT_EQ(warp(mesh, affine_image(mesh)).coordinates, affine_image(mesh));
 }
 
+TEST(Warp, PrescribedInteriorNodesGoWhereTheyAreSent) {
+    std::mt19937 random(8);
+    const CurvedMesh mesh = shaken(square_mesh(6, 2), 0.005, random);
+    WarpOptions options;
+    Coordinates target = mesh.coordinates();
+    for (Index node : mesh.topology().interior_nodes())
+        if (std::abs(mesh.coordinates()(node, 0) - 0.5) < 0.06 && std::abs(mesh.coordinates()(node, 1) - 0.5) < 0.26) {
+            options.prescribed_nodes.push_back(node);
+            target(node, 0) += 0.05;
+        }
+    ASSERT_GT(options.prescribed_nodes.size(), 3u);
+    const WarpResult result = warp(mesh, target, options);
+    for (Index node : options.prescribed_nodes) EXPECT_EQ(result.coordinates.row(node), target.row(node));
+    for (Index node : mesh.topology().boundary_nodes())
+        EXPECT_EQ(result.coordinates.row(node), mesh.coordinates().row(node));
+    EXPECT_EQ(result.report.interior_nodes + options.prescribed_nodes.size(), mesh.topology().interior_nodes().size());
+    // The neighbours follow: between the given motions, and not by nothing.
+    int followed = 0;
+    for (Index node : mesh.topology().interior_nodes()) {
+        const double motion = result.coordinates(node, 0) - mesh.coordinates()(node, 0);
+        EXPECT_GE(motion, -1e-12);
+        EXPECT_LE(motion, 0.05 + 1e-12);
+        followed += motion > 0.005 && motion < 0.045 ? 1 : 0;
+    }
+    EXPECT_GT(followed, 10);
+    EXPECT_EQ(assess_quality(mesh.with_coordinates(result.coordinates)).summary.invalid, 0);
+}
+
 TEST(Warp, RefusesWrongInput) {
     const CurvedMesh mesh = square_mesh(2, 2);
     EXPECT_THROW(warp(mesh, Coordinates::Zero(3, 3)), InvalidInput);

@@ -162,7 +162,7 @@ TEST(ComputeWeights, FallBackToAffineWhereConvexDoNotExist) {
     Coordinates x = mesh.coordinates();
     x.row(mesh.topology().interior_nodes().front()) << 1.5, 0.5, 0.0;
     mesh = mesh.with_coordinates(x);
-    const NeighbourSets sets = find_neighbours(mesh.topology());
+    const NeighbourSets sets = find_neighbours(mesh.topology(), mesh.topology().interior_nodes());
     const WeightTable table = compute_weights(mesh, sets, Weighting::convex, 2.0);
     ASSERT_EQ(table.status.size(), 1u);
     EXPECT_EQ(table.status[0], PatchStatus::outside_hull);
@@ -172,7 +172,7 @@ TEST(ComputeWeights, FallBackToAffineWhereConvexDoNotExist) {
 TEST(Neighbours, AreTheOtherNodesOfTheElementsOfANode) {
     const CurvedMesh mesh = testing::square_mesh(3, 2);
     const MeshTopology& topology = mesh.topology();
-    const NeighbourSets sets = find_neighbours(topology);
+    const NeighbourSets sets = find_neighbours(topology, topology.interior_nodes());
     for (std::size_t i = 0; i < topology.interior_nodes().size(); ++i) {
         std::vector<Index> expected;
         for (Index element = 0; element < topology.element_count(); ++element) {
