@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include "app/cli/command.h"
 #include "app/cli/output.h"
 
@@ -18,13 +16,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     Json timings = Json::object();
     CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
     if (options.flip) mesh = flip_orientation(mesh);
-    const auto quality = certify_for(options.output, mesh, context, timings);
-    write_output(options.output, mesh, quality ? &*quality : nullptr, nullptr, timings);
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}});
-    else
-        fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
+    write_and_report(options.output, mesh, invocation, context, timings, watch);
     return exit_done;
 }
 

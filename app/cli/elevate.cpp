@@ -1,8 +1,6 @@
-#include <fmt/format.h>
-
+#include "core/mesh/elevate.h"
 #include "app/cli/command.h"
 #include "app/cli/output.h"
-#include "core/mesh/elevate.h"
 
 namespace curvewright::cli {
 namespace {
@@ -21,13 +19,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const Stopwatch elevating;
     const CurvedMesh mesh = elevate(input, options.order, context);
     timings["elevate"] = elevating.seconds();
-    const auto quality = certify_for(options.output, mesh, context, timings);
-    write_output(options.output, mesh, quality ? &*quality : nullptr, nullptr, timings);
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"timings", timings}});
-    else
-        fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
+    write_and_report(options.output, mesh, invocation, context, timings, watch);
     return exit_done;
 }
 

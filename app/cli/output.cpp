@@ -116,6 +116,17 @@ void write_output(const OutputOptions& output, const CurvedMesh& mesh, const Qua
     timings["write"] = watch.seconds();
 }
 
+void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const Invocation& invocation,
+                      const TaskContext& context, Json& timings, const Stopwatch& watch) {
+    const auto quality = certify_for(output, mesh, context, timings);
+    write_output(output, mesh, quality ? &*quality : nullptr, nullptr, timings);
+    finish_timings(timings, watch);
+    if (invocation.common.json)
+        print_json({{"mesh", mesh_json(output.file, mesh)}, {"timings", timings}});
+    else
+        fmt::print("{}: {}\n", output.file.string(), mesh_line(mesh));
+}
+
 void finish_timings(Json& timings, const Stopwatch& watch) {
     timings["total"] = watch.seconds();
 }

@@ -51,6 +51,9 @@ void check_output(const OutputOptions& output);
 /// Writes the mesh, timed as "write". quality may be null.
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
                   const Coordinates* reference, Json& timings);
+/// What commands do whose result is a mesh and nothing else: certify where it belongs in the file, write, say so.
+void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const Invocation& invocation,
+                      const TaskContext& context, Json& timings, const Stopwatch& watch);
 /// Adds "total" to the timings.
 void finish_timings(Json& timings, const Stopwatch& watch);
 /// Sentence on standard error when the mesh is numbered clockwise or mixed; none otherwise or with --quiet.

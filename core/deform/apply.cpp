@@ -15,10 +15,6 @@ namespace {
 
 using Point = Eigen::RowVector3d;
 
-Point to_point(const Vector3& v) {
-    return {v[0], v[1], v[2]};
-}
-
 /// Every kind of operation as a function of one point. Compiled once per operation, called for each node.
 class PointMap {
   public:

@@ -16,10 +16,6 @@ namespace {
 
 using Point = Eigen::RowVector3d;
 
-Point to_point(const Vector3& v) {
-    return {v[0], v[1], v[2]};
-}
-
 /// A plane curve (u -> position) with its first two derivatives.
 struct CurvePoint {
     Eigen::Vector2d position, first, second;
@@ -68,6 +64,10 @@ CurvePoint naca_point(double thickness, double u) {
 }
 
 }  // namespace
+
+Point to_point(const Vector3& v) {
+    return {v[0], v[1], v[2]};
+}
 
 Point project(const SnapToCircle& shape, const Point& x) {
     Point result = x;
