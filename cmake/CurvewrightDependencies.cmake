@@ -1,7 +1,8 @@
-# Debian's packages; scripts/packages.sh lists them by name.
+# Debian's packages; scripts/packages.sh lists them by name. What core links stands in CurvewrightConfig.cmake.in too.
 
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
+find_package(METIS REQUIRED)
 find_package(fmt REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(CLI11 2.0 REQUIRED)

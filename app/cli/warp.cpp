@@ -96,10 +96,12 @@ void add_warp(CLI::App& app, Invocation& invocation) {
         ->add_option_function<std::string>(
             "--weights",
             [options](const std::string& text) {
-                options->warp.weighting = text == "affine" ? Weighting::affine : Weighting::convex;
+                options->warp.weighting = text == "affine"    ? Weighting::affine
+                                          : text == "elastic" ? Weighting::elastic
+                                                              : Weighting::convex;
             },
-            "convex (default) or affine")
-        ->check(CLI::IsMember({"convex", "affine"}));
+            "convex (default), affine or elastic")
+        ->check(CLI::IsMember({"convex", "affine", "elastic"}));
     command
         ->add_option("--distance-power", options->warp.distance_power,
                      "A neighbour at distance r counts r^-K; 0 = all alike, as in the thesis")

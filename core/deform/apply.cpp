@@ -68,7 +68,17 @@ std::string list_groups(const MeshTopology& topology) {
                          : "the mesh has " + names + ", and 'boundary' and 'all' always exist";
 }
 
-void apply_operations(const CurvedMesh& mesh, const OperationList& list, const std::string& where, Coordinates& x) {
+/// The operation done in part: a rotation by part of its angle; of all others the point goes part of its straight way.
+OperationKind partial(const OperationKind& kind, double fraction) {
+    const auto* rotation = std::get_if<Rotate>(&kind);
+    if (!rotation) return kind;
+    Rotate part = *rotation;
+    part.angle_deg *= fraction;
+    return part;
+}
+
+void apply_operations(const CurvedMesh& mesh, const OperationList& list, double fraction, const std::string& where,
+                      Coordinates& x) {
     for (std::size_t i = 0; i < list.operations.size(); ++i) {
         const Operation& operation = list.operations[i];
         const auto nodes = mesh.topology().find_group_nodes(operation.group);
@@ -78,9 +88,11 @@ void apply_operations(const CurvedMesh& mesh, const OperationList& list, const s
         const auto fail = [&](const std::string& what) {
             throw InvalidInput(fmt::format("{}operation {} on group '{}': {}.", where, i + 1, operation.group, what));
         };
+        const OperationKind kind = partial(operation.kind, fraction);
+        const double way = std::holds_alternative<Rotate>(kind) ? 1.0 : fraction;
         std::optional<PointMap> map;
         try {
-            map.emplace(operation.kind);
+            map.emplace(kind);
         } catch (const InvalidInput& error) {
             fail(error.what());
         }
@@ -94,7 +106,10 @@ void apply_operations(const CurvedMesh& mesh, const OperationList& list, const s
             if (!moved.allFinite())
                 fail(fmt::format("node {} at ({}, {}, {}) would get a position that is not finite",
                                  mesh.topology().node_tag(node).value, x(node, 0), x(node, 1), x(node, 2)));
-            x.row(node) = moved;
+            if (way == 1.0)
+                x.row(node) = moved;
+            else
+                x.row(node) += way * (moved - x.row(node));
         }
     }
 }
@@ -145,13 +160,17 @@ std::vector<Index> prescribed_interior_nodes(const CurvedMesh& mesh, const Defor
     return interior;
 }
 
-Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation) {
+Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation, double fraction) {
+    if (!(fraction >= 0.0 && fraction <= 1.0))
+        throw InvalidInput(fmt::format("The fraction of the deformation is {}; it must be from 0 to 1.", fraction));
     Coordinates x = mesh.coordinates();
     const std::string where = deformation.source.empty() ? std::string() : deformation.source + ": ";
     if (const auto* operations = std::get_if<OperationList>(&deformation.content))
-        apply_operations(mesh, *operations, where, x);
+        apply_operations(mesh, *operations, fraction, where, x);
     else
         apply_table(mesh, std::get<NodeTable>(deformation.content), where, x);
+    const bool is_table = std::holds_alternative<NodeTable>(deformation.content);
+    if (is_table && fraction < 1.0) x = mesh.coordinates() + fraction * (x - mesh.coordinates());
     return x;
 }
 

@@ -99,7 +99,9 @@ struct Deformation {
 /// New coordinates of all nodes: those that the deformation names move, all others stay where they are.
 /// Throws InvalidInput that names the operation (or the node tag) and the group when a group or a node does not exist,
 /// an expression is wrong or gives no finite number, or a projection is undefined (node on the centre).
-Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation);
+/// fraction: how much of it is done, 0 to 1: a rotation turns by that part of its angle, everything else goes that part
+/// of its straight way, operation after operation.
+Coordinates apply_deformation(const CurvedMesh& mesh, const Deformation& deformation, double fraction = 1.0);
 
 /// Interior nodes that the deformation places on purpose, ascending: those of the groups of lower dimension than the
 /// mesh (an interface inside the domain) that its operations name, and those of a node table. A warp must keep them

@@ -1,45 +1,135 @@
 #include "core/warp/neighbours.h"
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 
+#include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/basis/reference_element.h"
 
 namespace curvewright {
+namespace {
 
-NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers, const TaskContext& context) {
-    // Elements of each node, compressed by rows.
-    std::vector<std::size_t> first(static_cast<std::size_t>(topology.node_count()) + 1, 0);
+/// Per node of an element: which nodes of the element are its neighbours.
+using LocalNeighbours = std::vector<std::vector<int>>;
+
+bool is_one_step(Shape shape, const LatticePoint& a, const LatticePoint& b) {
+    int distance = 0, sum = 0, flat_distance = 0, flat_sum = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+        const int step = b[d] - a[d];
+        if (std::abs(step) > 1) return false;
+        distance += std::abs(step);
+        sum += step;
+        if (d == 1) {
+            flat_distance = distance;
+            flat_sum = sum;
+        }
+    }
+    // On a simplex a step takes one from one barycentric coordinate and gives it to another.
+    if (is_simplex(shape)) return distance == 1 || (distance == 2 && sum == 0);
+    if (shape == Shape::prism) return distance == 1 || (distance == 2 && flat_distance == 2 && flat_sum == 0);
+    if (shape == Shape::pyramid) return true;  // no lattice of products: all nodes
+    return distance == 1;
+}
+
+LocalNeighbours local_neighbours(ElementType type, NeighbourKind kind) {
+    const ReferenceElement& reference = reference_element(type);
+    const auto count = static_cast<std::size_t>(reference.node_count());
+    LocalNeighbours result(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j) {
+            if (i == j) continue;
+            const bool is_corner = static_cast<int>(j) < corner_count(type.shape);
+            const bool counts = kind == NeighbourKind::high_order ? !is_corner
+                                : kind == NeighbourKind::edge_connected
+                                    ? is_one_step(type.shape, reference.lattice[i], reference.lattice[j])
+                                    : true;
+            if (counts) result[i].push_back(static_cast<int>(j));
+        }
+    return result;
+}
+
+}  // namespace
+
+const char* to_string(NeighbourKind kind) {
+    switch (kind) {
+        case NeighbourKind::all:
+            return "all";
+        case NeighbourKind::high_order:
+            return "high-order";
+        case NeighbourKind::edge_connected:
+            return "edge";
+    }
+    return "";
+}
+
+NodeElements elements_of_nodes(const MeshTopology& topology) {
+    NodeElements result;
+    std::vector<std::size_t>& offsets = result.offsets;
+    offsets.assign(static_cast<std::size_t>(topology.node_count()) + 1, 0);
     for (Index element = 0; element < topology.element_count(); ++element)
-        for (Index node : topology.element_nodes(element)) ++first[node + 1];
-    for (std::size_t i = 1; i < first.size(); ++i) first[i] += first[i - 1];
-    std::vector<Index> elements(first.back());
-    std::vector<std::size_t> next(first.begin(), first.end() - 1);
+        for (Index node : topology.element_nodes(element)) ++offsets[static_cast<std::size_t>(node) + 1];
+    for (std::size_t i = 1; i < offsets.size(); ++i) offsets[i] += offsets[i - 1];
+    result.elements.resize(offsets.back());
+    std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
     for (Index element = 0; element < topology.element_count(); ++element)
-        for (Index node : topology.element_nodes(element)) elements[next[node]++] = element;
+        for (Index node : topology.element_nodes(element)) result.elements[next[node]++] = element;
+    return result;
+}
+
+NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers, NeighbourKind kind,
+                              const TaskContext& context) {
+    if (kind == NeighbourKind::high_order && topology.order() < 2)
+        throw Unsupported("High-order neighbours need a mesh of order 2 or more.");
+    context.report("Finding neighbours", 0.0);
+    const NodeElements node_elements = elements_of_nodes(topology);
+    std::map<ElementType, LocalNeighbours> tables;
+    if (kind != NeighbourKind::all)
+        for (const ElementBlock& block : topology.blocks())
+            if (!tables.contains(block.type)) tables[block.type] = local_neighbours(block.type, kind);
 
     NeighbourSets sets;
     sets.centers = std::move(centers);
     const auto& nodes = sets.centers;
-    constexpr std::size_t grain = 512;
+    // Few pieces, because each marks the nodes that it has seen in an array of its own.
+    const std::size_t grain = std::max<std::size_t>(512, nodes.size() / 48 + 1);
     std::vector<std::vector<Index>> piece_nodes((nodes.size() + grain - 1) / grain);
     sets.offsets.assign(nodes.size() + 1, 0);
     parallel_for(nodes.size(), grain, context, "Finding neighbours", [&](std::size_t begin, std::size_t end) {
         std::vector<Index>& out = piece_nodes[begin / grain];
-        std::vector<Index> set;
+        std::vector<Index> seen_by(static_cast<std::size_t>(topology.node_count()), -1);
         for (std::size_t i = begin; i < end; ++i) {
-            set.clear();
-            for (std::size_t k = first[nodes[i]]; k < first[nodes[i] + 1]; ++k)
-                for (Index node : topology.element_nodes(elements[k]))
-                    if (node != nodes[i]) set.push_back(node);
-            std::sort(set.begin(), set.end());
-            set.erase(std::unique(set.begin(), set.end()), set.end());
-            sets.offsets[i + 1] = set.size();
-            out.insert(out.end(), set.begin(), set.end());
+            if (i % 1024 == 0) context.check();
+            const std::size_t first = out.size();
+            const Index center = nodes[i];
+            seen_by[center] = center;
+            const auto add = [&](Index node) {
+                if (seen_by[node] == center) return;
+                seen_by[node] = center;
+                out.push_back(node);
+            };
+            for (const Index element : node_elements.of(center)) {
+                const auto element_nodes = topology.element_nodes(element);
+                if (kind == NeighbourKind::all) {
+                    for (const Index node : element_nodes) add(node);
+                    continue;
+                }
+                const auto local = std::find(element_nodes.begin(), element_nodes.end(), center);
+                for (const int j :
+                     tables.at(topology.element_type(element))[static_cast<std::size_t>(local - element_nodes.begin())])
+                    add(element_nodes[static_cast<std::size_t>(j)]);
+            }
+            sets.offsets[i + 1] = out.size() - first;
         }
     });
     for (std::size_t i = 1; i < sets.offsets.size(); ++i) sets.offsets[i] += sets.offsets[i - 1];
-    sets.nodes.reserve(sets.offsets.back());
-    for (const auto& piece : piece_nodes) sets.nodes.insert(sets.nodes.end(), piece.begin(), piece.end());
+    sets.nodes.resize(sets.offsets.back());
+    parallel_for(piece_nodes.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t piece = begin; piece < end; ++piece)
+            std::copy(piece_nodes[piece].begin(), piece_nodes[piece].end(),
+                      sets.nodes.begin() + static_cast<std::ptrdiff_t>(sets.offsets[piece * grain]));
+    });
     return sets;
 }
 

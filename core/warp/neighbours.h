@@ -8,19 +8,41 @@
 
 namespace curvewright {
 
-/// Neighbours of the free nodes: all other nodes of the elements that contain it (thesis, 2.2).
+/// Which nodes an interior node is tied to.
+enum class NeighbourKind {
+    all,         ///< all other nodes of its elements (thesis, 2.2)
+    high_order,  ///< those of them that are no vertices; fewer weights, for small motions. Needs order 2.
+    /// Those one step away on the lattice of an element, the edges between nodes: the fewest weights, but the node lies
+    /// close to the edge of their hull.
+    edge_connected,
+};
+const char* to_string(NeighbourKind kind);
+
+/// The elements that contain each node, compressed by rows; ascending for a node.
+struct NodeElements {
+    std::vector<std::size_t> offsets;  ///< nodes + 1
+    std::vector<Index> elements;
+
+    std::span<const Index> of(Index node) const {
+        return std::span(elements).subspan(offsets[node], offsets[node + 1] - offsets[node]);
+    }
+};
+NodeElements elements_of_nodes(const MeshTopology& topology);
+
+/// Neighbours of the free nodes, one set per node.
 struct NeighbourSets {
-    std::vector<Index> centers;        ///< the free nodes, ascending
+    std::vector<Index> centers;        ///< the free nodes
     std::vector<std::size_t> offsets;  ///< free nodes + 1
-    std::vector<Index> nodes;          ///< ascending within a set
+    std::vector<Index> nodes;          ///< of all sets; in the order in which the elements name them
 
     std::span<const Index> of(std::size_t i) const {
         return std::span(nodes).subspan(offsets[i], offsets[i + 1] - offsets[i]);
     }
 };
 
-/// One set per entry of centers (ascending), in that order. Multi-threaded. Throws Cancelled.
+/// One set per entry of centers, in that order. Multi-threaded. Throws Unsupported for high_order on a mesh of order 1,
+/// Cancelled.
 NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers,
-                              const TaskContext& context = {});
+                              NeighbourKind kind = NeighbourKind::all, const TaskContext& context = {});
 
 }  // namespace curvewright

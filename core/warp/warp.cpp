@@ -1,122 +1,341 @@
 #include "core/warp/warp.h"
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
+#include <Eigen/QR>
 
 #include "core/base/error.h"
+#include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
-#include "core/warp/neighbours.h"
-#include "core/warp/solve.h"
-#include "core/warp/weights.h"
+#include "core/warp/elasticity.h"
+#include "core/warp/equations.h"
 
 namespace curvewright {
 
 const char* to_string(Weighting weighting) {
-    return weighting == Weighting::convex ? "convex" : "affine";
-}
-
-const char* to_string(SolverChoice solver) {
-    switch (solver) {
-        case SolverChoice::automatic:
-            return "auto";
-        case SolverChoice::direct:
-            return "direct";
-        case SolverChoice::iterative:
-            return "iterative";
+    switch (weighting) {
+        case Weighting::convex:
+            return "convex";
+        case Weighting::affine:
+            return "affine";
+        case Weighting::elastic:
+            return "elastic";
+        case Weighting::custom:
+            return "custom";
     }
     return "";
 }
 
-WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, const WarpOptions& options,
-                const TaskContext& context) {
+namespace {
+
+void check(const CurvedMesh& mesh, const WarpOptions& options) {
+    if (mesh.topology().dimension() < 2) throw Unsupported("Warping needs a mesh of dimension 2 or 3.");
+    if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
+        throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
+    if (!(options.residual_tolerance > 0.0 && options.residual_tolerance < 1.0))
+        throw InvalidInput(
+            fmt::format("The residual tolerance is {}; it must be between 0 and 1.", options.residual_tolerance));
+    if (options.weighting == Weighting::custom && !options.custom_weights)
+        throw InvalidInput("Custom weights were asked for, but no weighting is given.");
+}
+
+WeightFunction weighting_of(const WarpOptions& options) {
+    switch (options.weighting) {
+        case Weighting::convex:
+            return convex_weighting(options.distance_power);
+        case Weighting::affine:
+            return affine_weighting(options.distance_power);
+        default:
+            return options.custom_weights;
+    }
+}
+
+/// Factors that make the rows of D_I nearly symmetric: the sum of the unscaled influences of a patch (the weight of a
+/// neighbour is about its influence over that sum, and the influence is the same seen from both ends).
+Eigen::VectorXd symmetric_scale(const CurvedMesh& mesh, const Numbering& numbering, const NeighbourSets& sets,
+                                double power) {
+    Eigen::VectorXd scale(numbering.solved);
+    parallel_for(static_cast<std::size_t>(numbering.solved), 4096, {}, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t row = begin; row < end; ++row) {
+            const auto neighbours = sets.of(row);
+            double sum = power == 0.0 ? static_cast<double>(neighbours.size()) : 0.0;
+            if (power != 0.0)
+                for (const Index node : neighbours) {
+                    const double square =
+                        (mesh.coordinates().row(node) - mesh.coordinates().row(sets.centers[row])).squaredNorm();
+                    sum += power == 2.0 ? 1.0 / square : std::pow(square, -0.5 * power);
+                }
+            scale[static_cast<Eigen::Index>(row)] = sum;
+        }
+    });
+    const double mean = scale.size() > 0 ? scale.mean() : 1.0;
+    // Nodes in one place would count infinitely.
+    if (!std::isfinite(mean) || !(scale.minCoeff() > 0.0)) return {};
+    return scale / mean;
+}
+
+/// The affine function of the position that fits values at some nodes best, by least squares.
+class AffineFit {
+  public:
+    AffineFit() = default;
+    AffineFit(const CurvedMesh& mesh, const std::vector<Index>& nodes) : dim_(mesh.topology().dimension()) {
+        const Eigen::Matrix<double, 2, 3> box = bounding_box(mesh);
+        center_ = box.colwise().mean();
+        size_ = std::max(std::numeric_limits<double>::min(), (box.row(1) - box.row(0)).maxCoeff());
+        orthogonal_.compute(evaluate(mesh, nodes));
+    }
+    /// values: one row per node. Returns (dimension + 1) × k.
+    Eigen::MatrixXd fit(const Eigen::MatrixXd& values) const { return orthogonal_.solve(values); }
+    /// The basis functions at nodes: nodes × (dimension + 1).
+    Eigen::MatrixXd evaluate(const CurvedMesh& mesh, const std::vector<Index>& nodes) const {
+        Eigen::MatrixXd basis(static_cast<Eigen::Index>(nodes.size()), dim_ + 1);
+        for (Eigen::Index i = 0; i < basis.rows(); ++i) {
+            basis.row(i).head(dim_) =
+                (mesh.coordinates().row(nodes[static_cast<std::size_t>(i)]) - center_).head(dim_) / size_;
+            basis(i, dim_) = 1.0;
+        }
+        return basis;
+    }
+
+  private:
+    int dim_ = 2;
+    Eigen::RowVector3d center_;
+    double size_ = 1.0;
+    Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> orthogonal_;
+};
+
+}  // namespace
+
+struct Warper::Data {
+    Data(const CurvedMesh& m, const WarpOptions& o) : mesh(m), options(o) {}
+
+    CurvedMesh mesh;
+    WarpOptions options;
+    WarpReport report;
+    std::vector<Index> given_nodes;
+    Numbering numbering;
+    int block = 1;
+    BlockMatrix coupling;
+    std::vector<CondensedEquations::Group> groups;
+    AffineFit affine;
+    std::optional<LinearSolver> solver;
+
+    void set_up(const TaskContext& context);
+    BlockMatrix equations(CoarseSpace& coarse, const TaskContext& context);
+};
+
+BlockMatrix Warper::Data::equations(CoarseSpace& coarse, const TaskContext& context) {
+    Stopwatch watch;
+    if (options.weighting == Weighting::elastic) {
+        BlockMatrix result = elastic_equations(mesh, numbering, {options.poisson_ratio, options.stiffening}, context);
+        report.weights_seconds = watch.seconds();
+        coarse = vertex_space(mesh, numbering, block);
+        return result;
+    }
+    const NeighbourSets sets = find_neighbours(mesh.topology(), numbering.free_nodes(), options.neighbours, context);
+    if (sets.nodes.size() + sets.centers.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
+        throw Unsupported(fmt::format("The warp of this mesh has {} weights; at most {} are supported.",
+                                      sets.nodes.size(), std::numeric_limits<int>::max()));
+    report.neighbours_seconds = watch.seconds();
+    watch = {};
+    const WeightTable table = compute_weights(mesh, sets, weighting_of(options), context);
+    for (std::size_t i = 0; i < sets.centers.size(); ++i) {
+        if (table.status[i] == PatchStatus::outside_hull) report.outside_hull.push_back(sets.centers[i]);
+        if (table.status[i] == PatchStatus::degenerate) report.degenerate.push_back(sets.centers[i]);
+    }
+    std::sort(report.outside_hull.begin(), report.outside_hull.end());
+    std::sort(report.degenerate.begin(), report.degenerate.end());
+    if (options.outside_hull == OutsideHull::refuse && !report.outside_hull.empty())
+        throw SolverFailure(
+            fmt::format("{} nodes do not lie strictly inside the hull of their neighbours, so that they have no convex "
+                        "weights; the "
+                        "first is node {}.",
+                        report.outside_hull.size(), mesh.topology().node_tag(report.outside_hull.front()).value));
+    BlockMatrix result = weight_equations(numbering, sets, table, context);
+    for (const double value : result.values)
+        if (!std::isfinite(value)) throw SolverFailure("The weighting gave a weight that is not finite.");
+    coarse = vertex_space(mesh, numbering, block);
+    const bool has_influence = options.weighting != Weighting::custom;
+    coarse.row_scale = symmetric_scale(mesh, numbering, sets, has_influence ? options.distance_power : 0.0);
+    report.weights_seconds = watch.seconds();
+    return result;
+}
+
+void Warper::Data::set_up(const TaskContext& context) {
+    check(mesh, options);
     const MeshTopology& topology = mesh.topology();
-    if (topology.dimension() < 2) throw Unsupported("Warping needs a mesh of dimension 2 or 3.");
+    std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
+    for (const Index node : topology.boundary_nodes()) is_given[static_cast<std::size_t>(node)] = true;
+    for (const Index node : options.prescribed_nodes)
+        if (topology.is_interior_node(node)) is_given[static_cast<std::size_t>(node)] = true;
+    for (Index node = 0; node < topology.node_count(); ++node)
+        if (is_given[static_cast<std::size_t>(node)]) given_nodes.push_back(node);
+    const bool is_elastic = options.weighting == Weighting::elastic;
+    block = is_elastic ? topology.dimension() : 1;
+    // Sets with all nodes of an element have room for what condensation adds; smaller ones have not.
+    const bool condenses = options.condense && (is_elastic || options.neighbours != NeighbourKind::edge_connected);
+    numbering = number_nodes(mesh, is_given, condenses);
+    report.interior_nodes = numbering.free;
+    report.condensed_nodes = numbering.free - numbering.solved;
+    if (numbering.free == 0) {
+        report.solver_note = "The mesh has no interior nodes; only its boundary moves.";
+        return;
+    }
+    affine = AffineFit(mesh, given_nodes);
+    LinearSystem system;
+    CondensedEquations condensed = condense(numbering, equations(system.coarse, context), context);
+    const Stopwatch watch;
+    coupling = std::move(condensed.coupling);
+    groups = std::move(condensed.groups);
+    system.matrix = std::move(condensed.matrix);
+    system.is_symmetric = is_elastic;
+    system.sweep = numbering.sweep;
+    if (numbering.solved > 0)
+        solver.emplace(
+            std::move(system),
+            SolverOptions{options.solver, options.ordering, options.residual_tolerance, options.max_iterations},
+            context);
+    report.solve_seconds = watch.seconds();
+}
+
+Warper::Warper(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
+    auto data = std::make_unique<Data>(mesh, options);
+    data->set_up(context);
+    data_ = std::move(data);
+}
+Warper::~Warper() = default;
+Warper::Warper(Warper&&) noexcept = default;
+
+const CurvedMesh& Warper::mesh() const {
+    return data_->mesh;
+}
+const WarpOptions& Warper::options() const {
+    return data_->options;
+}
+const std::vector<Index>& Warper::given_nodes() const {
+    return data_->given_nodes;
+}
+const WarpReport& Warper::setup_report() const {
+    return data_->report;
+}
+int Warper::fields_per_motion() const {
+    return data_->block;
+}
+
+MultiVector Warper::extend(const MultiVector& displacements, SolveReport& solve, const TaskContext& context) const {
+    const Data& data = *data_;
+    const Numbering& numbering = data.numbering;
+    const Eigen::Index block = data.block, columns = displacements.cols(), motions = columns / block;
+    if (displacements.rows() != data.mesh.topology().node_count() || motions * block != columns)
+        throw InvalidInput(
+            fmt::format("The motion to be extended is {} × {}; expected {} rows and a multiple of {} "
+                        "columns.",
+                        displacements.rows(), columns, data.mesh.topology().node_count(), block));
+    MultiVector result = MultiVector::Zero(displacements.rows(), columns);
+    Eigen::MatrixXd given(static_cast<Eigen::Index>(data.given_nodes.size()), columns);
+    for (Eigen::Index i = 0; i < given.rows(); ++i) {
+        const Index node = data.given_nodes[static_cast<std::size_t>(i)];
+        result.row(node) = displacements.row(node);
+        given.row(i) = displacements.row(node);
+    }
+    solve = {};
+    solve.note = data.report.solver_note;
+    if (numbering.free == 0 || given.isZero(0.0)) return result;
+
+    // The affine part is taken as it is; the equations are left with the rest.
+    const Eigen::MatrixXd affine = data.affine.fit(given);
+    given -= data.affine.evaluate(data.mesh, data.given_nodes) * affine;
+    const std::vector<Index> free_nodes = numbering.free_nodes();
+    const Eigen::MatrixXd free_affine = data.affine.evaluate(data.mesh, free_nodes) * affine;
+
+    // Unknowns of a node below each other, one column per motion.
+    const auto pack = [&](const Eigen::MatrixXd& rows) {
+        MultiVector packed(rows.rows() * block, motions);
+        for (Eigen::Index i = 0; i < rows.rows(); ++i)
+            for (Eigen::Index m = 0; m < motions; ++m)
+                for (Eigen::Index d = 0; d < block; ++d) packed(i * block + d, m) = rows(i, m * block + d);
+        return packed;
+    };
+    const MultiVector given_packed = pack(given);
+    MultiVector right_hand_side, solved;
+    if (numbering.solved > 0) {
+        multiply(data.coupling, given_packed, right_hand_side, context);
+        right_hand_side = -right_hand_side;
+        solved = data.solver->solve(right_hand_side, solve, context);
+    }
+    MultiVector free(static_cast<Eigen::Index>(numbering.free) * block, motions);
+    if (solved.rows() > 0) free.topRows(solved.rows()) = solved;
+    parallel_for(data.groups.size(), 1024, context, {}, [&](std::size_t begin, std::size_t end) {
+        MultiVector others;
+        for (std::size_t g = begin; g < end; ++g) {
+            const CondensedEquations::Group& group = data.groups[g];
+            others.resize(static_cast<Eigen::Index>(group.columns.size()) * block, motions);
+            for (std::size_t c = 0; c < group.columns.size(); ++c) {
+                const Index number = group.columns[c];
+                const auto target = static_cast<Eigen::Index>(c) * block;
+                if (number < numbering.solved)
+                    others.middleRows(target, block) = free.middleRows(number * block, block);
+                else
+                    others.middleRows(target, block) =
+                        given_packed.middleRows((number - numbering.free) * block, block);
+            }
+            free.middleRows(numbering.group_offsets[g] * block, group.factors.rows()).noalias() =
+                -group.factors * others;
+        }
+    });
+    for (Index number = 0; number < numbering.free; ++number)
+        for (Eigen::Index m = 0; m < motions; ++m)
+            for (Eigen::Index d = 0; d < block; ++d)
+                result(numbering.nodes[number], m * block + d) =
+                    free_affine(number, m * block + d) + free(number * block + d, m);
+    return result;
+}
+
+WarpResult Warper::move(const Coordinates& boundary_positions, const TaskContext& context) const {
+    const Data& data = *data_;
+    const MeshTopology& topology = data.mesh.topology();
+    const Coordinates& start = data.mesh.coordinates();
     if (boundary_positions.rows() != topology.node_count())
         throw InvalidInput(fmt::format("The boundary positions are {} rows; the mesh has {} nodes.",
                                        boundary_positions.rows(), topology.node_count()));
-    if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
-        throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
     const int dim = topology.dimension();
-    std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
-    for (Index node : topology.boundary_nodes()) is_given[node] = true;
-    for (Index node : options.prescribed_nodes)
-        if (topology.is_interior_node(node)) is_given[node] = true;
-    std::vector<Index> interior;  // the nodes that follow
-    for (Index node : topology.interior_nodes())
-        if (!is_given[node]) interior.push_back(node);
-    WarpResult result{mesh.coordinates(), {}};
-    for (Index node = 0; node < topology.node_count(); ++node)
-        if (is_given[node]) result.coordinates.row(node) = boundary_positions.row(node);
-    if (!result.coordinates.allFinite()) throw InvalidInput("A boundary node's new position is not finite.");
-    if (dim == 2)
-        for (Index node = 0; node < topology.node_count(); ++node)
-            if (result.coordinates(node, 2) != mesh.coordinates()(node, 2))
-                throw InvalidInput(fmt::format(
-                    "Boundary node {} of the 2D mesh would leave its plane (z = {} instead of {}); "
-                    "a deformation of a 2D mesh must keep z.",
-                    topology.node_tag(node).value, result.coordinates(node, 2), mesh.coordinates()(node, 2)));
-    WarpReport& report = result.report;
-    report.interior_nodes = static_cast<Index>(interior.size());
-    if (interior.empty()) {
-        report.solver_note = "The mesh has no interior nodes; only its boundary moved.";
-        return result;
+    WarpResult result{start, data.report};
+    MultiVector displacement = MultiVector::Zero(topology.node_count(), dim);
+    for (const Index node : data.given_nodes) {
+        if (!boundary_positions.row(node).allFinite())
+            throw InvalidInput(
+                fmt::format("The new position of node {} is not finite.", topology.node_tag(node).value));
+        if (dim == 2 && boundary_positions(node, 2) != start(node, 2))
+            throw InvalidInput(
+                fmt::format("Boundary node {} of the 2D mesh would leave its plane (z = {} instead of {}); "
+                            "a deformation of a 2D mesh must keep z.",
+                            topology.node_tag(node).value, boundary_positions(node, 2), start(node, 2)));
+        result.coordinates.row(node) = boundary_positions.row(node);
+        displacement.row(node) = (boundary_positions.row(node) - start.row(node)).head(dim);
     }
-
-    Stopwatch watch;
-    const NeighbourSets sets = find_neighbours(topology, interior, context);
-    report.neighbours_seconds = watch.seconds();
-    watch = {};
-    const WeightTable table = compute_weights(mesh, sets, options.weighting, options.distance_power, context);
-    report.weights_seconds = watch.seconds();
-    for (std::size_t i = 0; i < interior.size(); ++i) {
-        if (table.status[i] == PatchStatus::outside_hull) report.outside_hull.push_back(interior[i]);
-        if (table.status[i] == PatchStatus::degenerate) report.degenerate.push_back(interior[i]);
-    }
-
-    // In displacements u = x_new - x_old: u_I - W_II u_I = W_IB u_B (thesis 2.5). The start is zero, and the relative
-    // residual is relative to the motion.
-    watch = {};
-    std::vector<Index> unknown(static_cast<std::size_t>(topology.node_count()), -1);
-    for (std::size_t i = 0; i < interior.size(); ++i) unknown[interior[i]] = static_cast<Index>(i);
-    const auto count = static_cast<Eigen::Index>(interior.size());
-    if (sets.nodes.size() + interior.size() > static_cast<std::size_t>(std::numeric_limits<int>::max()))
-        throw Unsupported(fmt::format("The warp of this mesh has {} weights; at most {} are supported.",
-                                      sets.nodes.size(), std::numeric_limits<int>::max()));
-    Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(count, count);
-    Eigen::MatrixXd rhs = Eigen::MatrixXd::Zero(count, dim);
-    matrix.reserve(static_cast<Eigen::Index>(sets.nodes.size()) + count);
-    for (Eigen::Index i = 0; i < count; ++i) {
-        // Interior nodes and sets are both ascending, so the columns come in order; the diagonal goes between them.
-        matrix.startVec(i);
-        bool has_diagonal = false;
-        for (std::size_t k = sets.offsets[i]; k < sets.offsets[i + 1]; ++k) {
-            const Index node = sets.nodes[k], column = unknown[node];
-            if (column < 0) {
-                rhs.row(i) +=
-                    table.weights[k] * (result.coordinates.row(node) - mesh.coordinates().row(node)).head(dim);
-                continue;
-            }
-            if (!has_diagonal && column > i) {
-                matrix.insertBack(i, i) = 1.0;
-                has_diagonal = true;
-            }
-            matrix.insertBack(i, column) = -table.weights[k];
-        }
-        if (!has_diagonal) matrix.insertBack(i, i) = 1.0;
-    }
-    matrix.finalize();
-
+    const Stopwatch watch;
     SolveReport solve;
-    const Eigen::MatrixXd displacement = solve_linear(matrix, rhs, options, solve, context);
-    for (Eigen::Index i = 0; i < count; ++i) result.coordinates.row(interior[i]).head(dim) += displacement.row(i);
+    const MultiVector moved = extend(displacement, solve, context);
+    for (Index number = 0; number < data.numbering.free; ++number) {
+        const Index node = data.numbering.nodes[number];
+        result.coordinates.row(node).head(dim) += moved.row(node);
+    }
     if (!result.coordinates.allFinite()) throw SolverFailure("The warp gave positions that are not finite.");
-    report.solver = solve.solver;
-    report.solver_note = solve.note;
-    report.iterations = solve.iterations;
-    report.residual = solve.residual;
-    report.solve_seconds = watch.seconds();
+    result.report.solver = solve.solver;
+    result.report.solver_note = solve.note;
+    result.report.iterations = solve.iterations;
+    result.report.residual = solve.residual;
+    result.report.solve_seconds += watch.seconds();
     return result;
+}
+
+WarpResult warp(const CurvedMesh& mesh, const Coordinates& boundary_positions, const WarpOptions& options,
+                const TaskContext& context) {
+    return Warper(mesh, options, context).move(boundary_positions, context);
 }
 
 }  // namespace curvewright

@@ -1,5 +1,6 @@
 #include "core/warp/weights.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -50,67 +51,114 @@ PatchStatus affine_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
     return orthogonal.rank() == Dim + 1 ? PatchStatus::regular : PatchStatus::degenerate;
 }
 
+/// Arrays that the patches of one thread share.
+struct ConvexScratch {
+    std::vector<double> whitened;  ///< dimension × neighbours
+    std::vector<double> q;         ///< neighbours
+    void resize(std::size_t size, std::size_t dim) {
+        if (q.size() >= size) return;
+        q.resize(size);
+        whitened.resize(size * dim);
+    }
+};
+
 template <int Dim>
 PatchStatus convex_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                               const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights) {
     using Vector = Eigen::Matrix<double, Dim, 1>;
     using Matrix = Eigen::Matrix<double, Dim, Dim>;
-    const Eigen::Index n = offsets.rows();
-    const double total = influence.sum();
+    const auto n = static_cast<std::size_t>(offsets.rows());
+    const double* c = influence.data();
+    std::array<const double*, Dim> offset;
+    for (int d = 0; d < Dim; ++d) offset[d] = offsets.data() + d * offsets.outerStride();
+    double total = 0.0;
+    for (std::size_t j = 0; j < n; ++j) total += c[j];
     // Whiten the patch (offsets times the inverse Cholesky factor of their second moment): the solution does not
     // change, but stretched patches become round and the Hessian well conditioned.
     Matrix moment = Matrix::Zero();
-    for (Eigen::Index j = 0; j < n; ++j) {
-        const Vector y = offsets.row(j).transpose();
-        moment.noalias() += influence[j] / total * y * y.transpose();
-    }
+    for (int r = 0; r < Dim; ++r)
+        for (int s = 0; s <= r; ++s) {
+            double sum = 0.0;
+            for (std::size_t j = 0; j < n; ++j) sum += c[j] * offset[r][j] * offset[s][j];
+            moment(r, s) = moment(s, r) = sum / total;
+        }
     const double largest = moment.diagonal().maxCoeff();
     if (!(largest > 0.0)) return PatchStatus::outside_hull;
     const Eigen::LLT<Matrix> cholesky(moment);
     if (cholesky.info() != Eigen::Success || cholesky.matrixLLT().diagonal().minCoeff() <= 1e-10 * std::sqrt(largest))
         return PatchStatus::outside_hull;
-    const Eigen::Matrix<double, Dim, Eigen::Dynamic> y = cholesky.matrixL().solve(offsets.transpose());
-
-    /// sum c_j log(total + g·y_j); -infinity outside the domain.
-    const auto objective = [&](const Vector& g) {
-        double sum = 0.0;
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const double q = total + g.dot(y.col(j));
-            if (!(q > 0.0)) return -std::numeric_limits<double>::infinity();
-            sum += influence[j] * std::log(q);
+    const Matrix whitening = cholesky.matrixL().solve(Matrix::Identity());
+    thread_local ConvexScratch scratch;
+    scratch.resize(n, 3);
+    std::array<double*, Dim> y;
+    for (int d = 0; d < Dim; ++d) {
+        y[d] = scratch.whitened.data() + static_cast<std::size_t>(d) * n;
+        for (std::size_t j = 0; j < n; ++j) {
+            double sum = 0.0;
+            for (int e = 0; e <= d; ++e) sum += whitening(d, e) * offset[e][j];
+            y[d][j] = sum;
         }
-        return sum;
+    }
+    double* q = scratch.q.data();
+    const auto evaluate = [&](const Vector& g) {
+        for (std::size_t j = 0; j < n; ++j) {
+            double value = total;
+            for (int d = 0; d < Dim; ++d) value += g[d] * y[d][j];
+            q[j] = value;
+        }
     };
-    Vector g = Vector::Zero();
-    double value = objective(g), last_slope = std::numeric_limits<double>::infinity();
+    const auto accept = [&](const Vector& g) {
+        evaluate(g);
+        double sum = 0.0;
+        for (std::size_t j = 0; j < n; ++j) {
+            if (!(q[j] > 0.0)) return PatchStatus::outside_hull;
+            sum += c[j] / q[j];
+        }
+        for (std::size_t j = 0; j < n; ++j) weights[static_cast<Eigen::Index>(j)] = c[j] / (q[j] * sum);
+        return PatchStatus::regular;
+    };
+
+    Vector g = Vector::Zero(), step = Vector::Zero();
+    double length = 0.0, last_slope = std::numeric_limits<double>::infinity();
+    evaluate(g);
     constexpr int max_iterations = 100;
     for (int iteration = 0; iteration < max_iterations; ++iteration) {
         Vector gradient = Vector::Zero();
         Matrix hessian = Matrix::Zero();
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const double q = 1.0 / (total + g.dot(y.col(j)));
-            gradient += influence[j] * q * y.col(j);
-            hessian.noalias() += (influence[j] * q * q) * y.col(j) * y.col(j).transpose();
+        for (std::size_t j = 0; j < n; ++j) {
+            const double inverse = 1.0 / q[j], first = c[j] * inverse, second = first * inverse;
+            for (int r = 0; r < Dim; ++r) {
+                gradient[r] += first * y[r][j];
+                const double product = second * y[r][j];
+                for (int s = 0; s <= r; ++s) hessian(r, s) += product * y[s][j];
+            }
         }
-        const Vector step = Eigen::LDLT<Matrix>(hessian).solve(gradient);
+        // A step is too long when the objective falls at its end nearly as steeply as it rose at its beginning.
+        const bool was_near = last_slope < 1e-10 * total;
+        if (iteration > 0 && !was_near && gradient.dot(step) < -0.5 * last_slope && length > 1e-12) {
+            g -= 0.5 * length * step;
+            length *= 0.5;
+            evaluate(g);
+            continue;
+        }
+        hessian = hessian.template selfadjointView<Eigen::Lower>();
+        step = Eigen::LDLT<Matrix>(hessian).solve(gradient);
         const double slope = gradient.dot(step);  // square of the Newton decrement
         if (!(slope >= 0.0) || !std::isfinite(slope)) return PatchStatus::outside_hull;
-        // Down to where rounding stops the decrease. There the objective is flat to rounding: no line search.
-        const bool is_near = slope < 1e-10 * total;
-        if (slope < 1e-30 * total || (is_near && slope >= last_slope)) {
-            for (Eigen::Index j = 0; j < n; ++j) weights[j] = influence[j] / (total + g.dot(y.col(j)));
-            if (!(weights.minCoeff() > 0.0)) return PatchStatus::outside_hull;
-            weights /= weights.sum();
-            return PatchStatus::regular;
-        }
+        // The next step would be below rounding, or rounding has stopped the decrease.
+        if (slope < 1e-18 * total) return accept(g + step);
+        if (was_near && slope >= last_slope) return accept(g);
         last_slope = slope;
-        double t = 1.0, next = objective(g + step);
-        while (!(is_near ? std::isfinite(next) : next >= value + 1e-4 * t * slope) && t > 1e-12) {
-            t *= 0.5;
-            next = objective(g + t * step);
+        // As far as q stays positive.
+        length = 1.0;
+        for (std::size_t j = 0; j < n; ++j) {
+            double change = 0.0;
+            for (int d = 0; d < Dim; ++d) change += step[d] * y[d][j];
+            if (-change * length > 0.95 * q[j]) length = -0.95 * q[j] / change;
         }
-        g += t * step;
-        value = next;
+        g += length * step;
+        if (g.squaredNorm() > 1e20 * total * total) return PatchStatus::outside_hull;
+        evaluate(g);
     }
     return PatchStatus::outside_hull;
 }
@@ -140,30 +188,44 @@ PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                                : convex_weights_of<3>(offsets, influence, weights);
 }
 
-WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, Weighting weighting,
-                            double distance_power, const TaskContext& context) {
+WeightFunction convex_weighting(double distance_power) {
+    return [distance_power](const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights) {
+        const Eigen::VectorXd influence = influences(patch.offsets, distance_power);
+        if (convex_weights(patch.offsets, influence, weights) == PatchStatus::regular) return PatchStatus::regular;
+        const PatchStatus affine = affine_weights(patch.offsets, influence, weights);
+        return affine == PatchStatus::regular ? PatchStatus::outside_hull : affine;
+    };
+}
+
+WeightFunction affine_weighting(double distance_power) {
+    return [distance_power](const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights) {
+        return affine_weights(patch.offsets, influences(patch.offsets, distance_power), weights);
+    };
+}
+
+WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, const WeightFunction& weighting,
+                            const TaskContext& context) {
     const auto& interior = sets.centers;
     const int dim = mesh.topology().dimension();
     WeightTable table;
     table.weights.resize(sets.nodes.size());
     table.status.assign(interior.size(), PatchStatus::regular);
-    parallel_for(interior.size(), 256, context, "Computing weights", [&](std::size_t begin, std::size_t end) {
-        Eigen::MatrixXd offsets;
+    context.report("Computing weights", 0.0);
+    parallel_for(interior.size(), 512, context, "Computing weights", [&](std::size_t begin, std::size_t end) {
+        std::vector<double> buffer;
         for (std::size_t i = begin; i < end; ++i) {
             const auto neighbours = sets.of(i);
-            const auto count = static_cast<Eigen::Index>(neighbours.size());
-            offsets.resize(count, dim);
-            for (Eigen::Index j = 0; j < count; ++j)
-                offsets.row(j) =
-                    (mesh.coordinates().row(neighbours[j]) - mesh.coordinates().row(interior[i])).head(dim);
-            Eigen::Map<Eigen::VectorXd> weights(table.weights.data() + sets.offsets[i], count);
-            const Eigen::VectorXd influence = influences(offsets, distance_power);
-            PatchStatus status = PatchStatus::outside_hull;
-            if (weighting == Weighting::convex) status = convex_weights(offsets, influence, weights);
-            if (status == PatchStatus::regular) continue;
-            const PatchStatus affine = affine_weights(offsets, influence, weights);
-            const bool convex_failed = weighting == Weighting::convex && affine == PatchStatus::regular;
-            table.status[i] = convex_failed ? PatchStatus::outside_hull : affine;
+            const std::size_t count = neighbours.size();
+            buffer.resize(std::max(buffer.size(), count * 3));
+            const double* center = mesh.coordinates().row(interior[i]).data();
+            for (std::size_t j = 0; j < count; ++j) {
+                const double* position = mesh.coordinates().row(neighbours[j]).data();
+                for (int d = 0; d < dim; ++d) buffer[static_cast<std::size_t>(d) * count + j] = position[d] - center[d];
+            }
+            const Eigen::Map<const Eigen::MatrixXd> offsets(buffer.data(), static_cast<Eigen::Index>(count), dim);
+            Eigen::Map<Eigen::VectorXd> weights(table.weights.data() + sets.offsets[i],
+                                                static_cast<Eigen::Index>(count));
+            table.status[i] = weighting({interior[i], neighbours, offsets}, weights);
         }
     });
     return table;

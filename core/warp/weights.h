@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -7,7 +9,6 @@
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/warp/neighbours.h"
-#include "core/warp/warp.h"
 
 namespace curvewright {
 
@@ -17,6 +18,19 @@ enum class PatchStatus {
     outside_hull,  ///< convex weights asked for, but the node is not strictly inside the hull of its neighbours
     degenerate,    ///< the neighbours do not span the space
 };
+
+/// One interior node and its neighbours, as a weighting sees them.
+struct Patch {
+    Index center;                       ///< the node, in the mesh
+    std::span<const Index> neighbours;  ///< in the mesh
+    /// neighbours × dimension (2 or 3): their positions minus the node's, in the mesh's unit.
+    Eigen::Ref<const Eigen::MatrixXd> offsets;
+};
+
+/// A weighting: writes one weight per neighbour of the patch. The warp moves the node by the weighted sum of its
+/// neighbours' motions, so the weights are to sum to 1, and sum w_j offset_j is to be 0 if affine motions are to come
+/// out exactly. Called from several threads at once.
+using WeightFunction = std::function<PatchStatus(const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights)>;
 
 /// Influence of each neighbour: c_j = |y_j|^-power, scaled to a mean of 1. offsets: neighbours × dimension. Power 0
 /// gives ones: the thesis's weights. Kept within a factor of 1000 of the influence at the mean distance.
@@ -38,13 +52,18 @@ PatchStatus affine_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                            const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights);
 
+/// The weightings of this library as functions of a patch. Where convex weights do not exist they give affine ones, and
+/// the status says so.
+WeightFunction convex_weighting(double distance_power);
+WeightFunction affine_weighting(double distance_power);
+
 /// Weights of all free nodes, one per entry of sets.nodes.
 struct WeightTable {
     std::vector<double> weights;
     std::vector<PatchStatus> status;  ///< per free node
 };
-/// Where convex weights do not exist, affine ones are taken. Multi-threaded. Throws Cancelled.
-WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, Weighting weighting,
-                            double distance_power, const TaskContext& context = {});
+/// Multi-threaded. Throws what the weighting throws, Cancelled.
+WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, const WeightFunction& weighting,
+                            const TaskContext& context = {});
 
 }  // namespace curvewright

@@ -1,0 +1,132 @@
+#include "core/warp/response.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <Eigen/Geometry>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+
+namespace curvewright {
+
+AffineMotion AffineMotion::translation(const Eigen::Vector3d& vector) {
+    AffineMotion motion;
+    motion.shift = vector;
+    return motion;
+}
+AffineMotion AffineMotion::rotation(const Eigen::Vector3d& axis, double angle) {
+    AffineMotion motion;
+    motion.linear = Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+    return motion;
+}
+AffineMotion AffineMotion::scaling(const Eigen::Vector3d& factors) {
+    AffineMotion motion;
+    motion.linear = factors.asDiagonal();
+    return motion;
+}
+AffineMotion AffineMotion::shear(int axis, int along, double factor) {
+    AffineMotion motion;
+    motion.linear(axis, along) += factor;
+    return motion;
+}
+
+ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind,
+                             const Eigen::Vector3d& origin, const TaskContext& context)
+    : dim_(warper.mesh().topology().dimension()),
+      kind_(kind),
+      origin_(origin),
+      is_vector_(warper.fields_per_motion() > 1) {
+    const CurvedMesh& mesh = warper.mesh();
+    const Index nodes = mesh.topology().node_count();
+    if (!set.weights.empty() && set.weights.size() != set.nodes.size())
+        throw InvalidInput(
+            fmt::format("The dragged set has {} nodes and {} weights.", set.nodes.size(), set.weights.size()));
+    // Functions of the position that a motion is made of: the weight, and the weight times each coordinate.
+    const int functions = kind == ResponseKind::translation ? 1 : dim_ + 1;
+    const int directions = is_vector_ ? dim_ : 1;
+    MultiVector motions = MultiVector::Zero(nodes, functions * directions * directions);
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        const Index node = set.nodes[i];
+        const auto& given = warper.given_nodes();
+        if (!std::binary_search(given.begin(), given.end(), node))
+            throw InvalidInput(
+                node >= 0 && node < nodes
+                    ? fmt::format("Node {} cannot be dragged: it lies inside the mesh and its motion is not given.",
+                                  mesh.topology().node_tag(node).value)
+                    : fmt::format("There is no node at position {}; the mesh has {} nodes.", node, nodes));
+        const double weight = set.weights.empty() ? 1.0 : set.weights[i];
+        for (int f = 0; f < functions; ++f) {
+            const double value = f == 0 ? weight : weight * (mesh.coordinates()(node, f - 1) - origin[f - 1]);
+            // Motion f along direction a: column a of its own group of columns.
+            for (int a = 0; a < directions; ++a) motions(node, (f * directions + a) * directions + a) = value;
+        }
+    }
+    SolveReport report;
+    const MultiVector response = warper.extend(motions, report, context);
+    for (Index node = 0; node < nodes; ++node)
+        if (!response.row(node).isZero(0.0)) moving_.push_back(node);
+    fields_.resize(static_cast<Eigen::Index>(moving_.size()), response.cols());
+    for (std::size_t i = 0; i < moving_.size(); ++i)
+        fields_.row(static_cast<Eigen::Index>(i)) = response.row(moving_[i]);
+}
+
+template <int Fields>
+void ResponseField::apply_fields(const Eigen::MatrixXd& factors, const Coordinates& start, Coordinates& result) const {
+    const Eigen::Index fields = fields_.cols(), components = factors.cols();
+    parallel_for(moving_.size(), 8192, {}, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const double* field = fields_.data() + static_cast<Eigen::Index>(i) * fields;
+            const double* from = start.data() + static_cast<std::ptrdiff_t>(moving_[i]) * 3;
+            double* to = result.data() + static_cast<std::ptrdiff_t>(moving_[i]) * 3;
+            const Eigen::Index count = Fields > 0 ? Fields : fields;
+            for (Eigen::Index d = 0; d < components; ++d) {
+                double sum = from[d];
+                const double* factor = factors.data() + d * fields;
+                for (Eigen::Index f = 0; f < count; ++f) sum += factor[f] * field[f];
+                to[d] = sum;
+            }
+        }
+    });
+}
+
+void ResponseField::apply(const AffineMotion& motion, const Coordinates& start, Coordinates& result) const {
+    const Eigen::Matrix3d linear = motion.linear - Eigen::Matrix3d::Identity();
+    if (kind_ == ResponseKind::translation && !linear.isZero(0.0))
+        throw InvalidInput("This response field was made for translations; it cannot turn, scale or shear.");
+    // Displacement of a dragged node: weight · (linear (x - origin) + shift), component by component a sum over
+    // functions.
+    const int functions = kind_ == ResponseKind::translation ? 1 : dim_ + 1;
+    const auto coefficient = [&](int function, int a) {
+        return function == 0 ? motion.shift[a] : linear(a, function - 1);
+    };
+    // fields × components
+    Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(fields_.cols(), dim_);
+    for (int f = 0; f < functions; ++f)
+        for (int a = 0; a < dim_; ++a) {
+            if (!is_vector_) {
+                factors(f, a) = coefficient(f, a);
+                continue;
+            }
+            for (int d = 0; d < dim_; ++d) factors((f * dim_ + a) * dim_ + d, d) = coefficient(f, a);
+        }
+    if (result.rows() != start.rows()) result = start;
+    switch (fields_.cols()) {
+        case 1:
+            return apply_fields<1>(factors, start, result);
+        case 3:
+            return apply_fields<3>(factors, start, result);
+        case 4:
+            return apply_fields<4>(factors, start, result);
+        default:
+            return apply_fields<0>(factors, start, result);
+    }
+}
+
+double ResponseField::translation_share(Index node) const {
+    const auto found = std::lower_bound(moving_.begin(), moving_.end(), node);
+    if (found == moving_.end() || *found != node) return 0.0;
+    return fields_(static_cast<Eigen::Index>(found - moving_.begin()), 0);
+}
+
+}  // namespace curvewright
