@@ -1,8 +1,9 @@
-# What every target of ours shares: the language level, the warnings, the sanitizers. Nothing here is global.
+# What every target of ours shares: the language level, the warnings, the sanitizers. Nothing here is global. The options
+# are installed with the library (a library built with a sanitizer can only be linked with it), the warnings are not.
 
 add_library(curvewright_options INTERFACE)
 target_compile_features(curvewright_options INTERFACE cxx_std_20)
-target_include_directories(curvewright_options INTERFACE ${PROJECT_SOURCE_DIR})
+target_include_directories(curvewright_options INTERFACE $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>)
 if(CURVEWRIGHT_SANITIZER)
     target_compile_options(curvewright_options INTERFACE -fsanitize=${CURVEWRIGHT_SANITIZER} -fno-omit-frame-pointer
                                                          -fno-sanitize-recover=undefined)
@@ -19,6 +20,7 @@ endif()
 
 # curvewright_configure(TARGET): warnings, language level and sanitizers for one of our targets.
 function(curvewright_configure target)
-    target_link_libraries(${target} PUBLIC curvewright_options PRIVATE curvewright_warnings)
+    target_link_libraries(${target} PUBLIC curvewright_options
+                                    PRIVATE $<BUILD_INTERFACE:curvewright_warnings>)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
