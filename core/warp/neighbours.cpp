@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <limits>
 #include <map>
 
 #include "core/base/error.h"
@@ -94,20 +95,31 @@ NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> c
     const auto& nodes = sets.centers;
     // Few pieces, because each marks the nodes that it has seen in an array of its own.
     const std::size_t grain = std::max<std::size_t>(512, nodes.size() / 48 + 1);
-    std::vector<std::vector<Index>> piece_nodes((nodes.size() + grain - 1) / grain);
+    struct Piece {
+        std::vector<Index> nodes;
+        std::vector<std::uint16_t> shared;
+    };
+    std::vector<Piece> pieces((nodes.size() + grain - 1) / grain);
     sets.offsets.assign(nodes.size() + 1, 0);
     parallel_for(nodes.size(), grain, context, "Finding neighbours", [&](std::size_t begin, std::size_t end) {
-        std::vector<Index>& out = piece_nodes[begin / grain];
+        Piece& out = pieces[begin / grain];
         std::vector<Index> seen_by(static_cast<std::size_t>(topology.node_count()), -1);
+        std::vector<std::size_t> place(seen_by.size());
         for (std::size_t i = begin; i < end; ++i) {
             if (i % 1024 == 0) context.check();
-            const std::size_t first = out.size();
+            const std::size_t first = out.nodes.size();
             const Index center = nodes[i];
-            seen_by[center] = center;
             const auto add = [&](Index node) {
-                if (seen_by[node] == center) return;
+                if (node == center) return;
+                if (seen_by[node] == center) {
+                    std::uint16_t& shared = out.shared[place[node]];
+                    if (shared < std::numeric_limits<std::uint16_t>::max()) ++shared;
+                    return;
+                }
                 seen_by[node] = center;
-                out.push_back(node);
+                place[node] = out.nodes.size();
+                out.nodes.push_back(node);
+                out.shared.push_back(1);
             };
             for (const Index element : node_elements.of(center)) {
                 const auto element_nodes = topology.element_nodes(element);
@@ -120,15 +132,19 @@ NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> c
                      tables.at(topology.element_type(element))[static_cast<std::size_t>(local - element_nodes.begin())])
                     add(element_nodes[static_cast<std::size_t>(j)]);
             }
-            sets.offsets[i + 1] = out.size() - first;
+            sets.offsets[i + 1] = out.nodes.size() - first;
         }
     });
     for (std::size_t i = 1; i < sets.offsets.size(); ++i) sets.offsets[i] += sets.offsets[i - 1];
     sets.nodes.resize(sets.offsets.back());
-    parallel_for(piece_nodes.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t piece = begin; piece < end; ++piece)
-            std::copy(piece_nodes[piece].begin(), piece_nodes[piece].end(),
-                      sets.nodes.begin() + static_cast<std::ptrdiff_t>(sets.offsets[piece * grain]));
+    sets.shared_elements.resize(sets.offsets.back());
+    parallel_for(pieces.size(), 1, context, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t piece = begin; piece < end; ++piece) {
+            const auto target = static_cast<std::ptrdiff_t>(sets.offsets[piece * grain]);
+            std::copy(pieces[piece].nodes.begin(), pieces[piece].nodes.end(), sets.nodes.begin() + target);
+            std::copy(pieces[piece].shared.begin(), pieces[piece].shared.end(), sets.shared_elements.begin() + target);
+            pieces[piece] = {};
+        }
     });
     return sets;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -34,9 +35,14 @@ struct NeighbourSets {
     std::vector<Index> centers;        ///< the free nodes
     std::vector<std::size_t> offsets;  ///< free nodes + 1
     std::vector<Index> nodes;          ///< of all sets; in the order in which the elements name them
+    /// Per entry of nodes: how many elements contain both the centre and the neighbour, at most 65535.
+    std::vector<std::uint16_t> shared_elements;
 
     std::span<const Index> of(std::size_t i) const {
         return std::span(nodes).subspan(offsets[i], offsets[i + 1] - offsets[i]);
+    }
+    std::span<const std::uint16_t> shared_elements_of(std::size_t i) const {
+        return std::span(shared_elements).subspan(offsets[i], offsets[i + 1] - offsets[i]);
     }
 };
 

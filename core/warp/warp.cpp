@@ -36,6 +36,8 @@ void check(const CurvedMesh& mesh, const WarpOptions& options) {
     if (mesh.topology().dimension() < 2) throw Unsupported("Warping needs a mesh of dimension 2 or 3.");
     if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
         throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
+    if (!(options.sharing_power >= -8.0 && options.sharing_power <= 8.0))
+        throw InvalidInput(fmt::format("The sharing power is {}; it must be from -8 to 8.", options.sharing_power));
     if (!(options.residual_tolerance > 0.0 && options.residual_tolerance < 1.0))
         throw InvalidInput(
             fmt::format("The residual tolerance is {}; it must be between 0 and 1.", options.residual_tolerance));
@@ -46,36 +48,22 @@ void check(const CurvedMesh& mesh, const WarpOptions& options) {
 WeightFunction weighting_of(const WarpOptions& options) {
     switch (options.weighting) {
         case Weighting::convex:
-            return convex_weighting(options.distance_power);
+            return convex_weighting(options.distance_power, options.sharing_power);
         case Weighting::affine:
-            return affine_weighting(options.distance_power);
+            return affine_weighting(options.distance_power, options.sharing_power);
         default:
             return options.custom_weights;
     }
 }
 
-/// Factors that make the rows of D_I nearly symmetric: the sum of the unscaled influences of a patch (the weight of a
-/// neighbour is about its influence over that sum, and the influence is the same seen from both ends).
-Eigen::VectorXd symmetric_scale(const CurvedMesh& mesh, const Numbering& numbering, const NeighbourSets& sets,
-                                double power) {
-    Eigen::VectorXd scale(numbering.solved);
-    parallel_for(static_cast<std::size_t>(numbering.solved), 4096, {}, {}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t row = begin; row < end; ++row) {
-            const auto neighbours = sets.of(row);
-            double sum = power == 0.0 ? static_cast<double>(neighbours.size()) : 0.0;
-            if (power != 0.0)
-                for (const Index node : neighbours) {
-                    const double square =
-                        (mesh.coordinates().row(node) - mesh.coordinates().row(sets.centers[row])).squaredNorm();
-                    sum += power == 2.0 ? 1.0 / square : std::pow(square, -0.5 * power);
-                }
-            scale[static_cast<Eigen::Index>(row)] = sum;
-        }
-    });
-    const double mean = scale.size() > 0 ? scale.mean() : 1.0;
-    // Nodes in one place would count infinitely.
-    if (!std::isfinite(mean) || !(scale.minCoeff() > 0.0)) return {};
-    return scale / mean;
+/// Factors that make the rows of D_I more symmetric: a weight is about the neighbour's influence over the sum of the
+/// patch's influences, and the part of the influence that shared elements give is the same seen from both ends.
+Eigen::VectorXd symmetric_scale(const Numbering& numbering, const NeighbourSets& sets, double sharing_power) {
+    Eigen::VectorXd scale = Eigen::VectorXd::Zero(numbering.solved);
+    for (Index row = 0; row < numbering.solved; ++row)
+        for (const std::uint16_t shared : sets.shared_elements_of(static_cast<std::size_t>(row)))
+            scale[row] += real_power(shared, sharing_power);
+    return scale;
 }
 
 /// The affine function of the position that fits values at some nodes best, by least squares.
@@ -159,8 +147,8 @@ BlockMatrix Warper::Data::equations(CoarseSpace& coarse, const TaskContext& cont
     for (const double value : result.values)
         if (!std::isfinite(value)) throw SolverFailure("The weighting gave a weight that is not finite.");
     coarse = vertex_space(mesh, numbering, block);
-    const bool has_influence = options.weighting != Weighting::custom;
-    coarse.row_scale = symmetric_scale(mesh, numbering, sets, has_influence ? options.distance_power : 0.0);
+    coarse.row_scale =
+        symmetric_scale(numbering, sets, options.weighting == Weighting::custom ? 0.0 : options.sharing_power);
     report.weights_seconds = watch.seconds();
     return result;
 }

@@ -29,10 +29,12 @@ enum class OutsideHull {
 
 struct WarpOptions {
     Weighting weighting = Weighting::convex;
-    /// Influence of a neighbour at distance r: c = r^-distance_power. 0 gives the thesis's weights, in which all nodes
-    /// of the patch count alike. Beyond the thesis: with 2 the near neighbours count more, so that small elements are
+    /// Influence of a neighbour at distance r that shares n elements with the node: c = r^-distance_power
+    /// n^sharing_power. 0 and 0 give the thesis's weights, in which all nodes of the patch count alike. Beyond the
+    /// thesis: near neighbours and those that the node meets in several elements count more, so that small elements are
     /// stiffer than large ones and follow a moving boundary with less distortion, at the same cost.
-    double distance_power = 2.0;
+    double distance_power = 7.0;
+    double sharing_power = 4.0;
     /// For Weighting::custom.
     WeightFunction custom_weights;
     NeighbourKind neighbours = NeighbourKind::all;

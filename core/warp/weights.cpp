@@ -1,5 +1,6 @@
 #include "core/warp/weights.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -165,14 +166,35 @@ PatchStatus convex_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 
 }  // namespace
 
-Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double power) {
-    if (power == 0.0) return Eigen::VectorXd::Ones(offsets.rows());
-    const Eigen::VectorXd distance = offsets.rowwise().norm();
-    const double mean = distance.mean();
+double real_power(double base, double exponent) {
+    const double size = std::abs(exponent);
+    if (size > 8.0 || size != std::floor(size)) return std::pow(base, exponent);
+    double result = 1.0;
+    for (int i = 0; i < static_cast<int>(size); ++i) result *= base;
+    return exponent < 0.0 ? 1.0 / result : result;
+}
+
+Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double distance_power) {
+    if (distance_power == 0.0) return Eigen::VectorXd::Ones(offsets.rows());
+    Eigen::VectorXd influence = offsets.rowwise().norm();
+    const double mean = influence.mean();
     if (!(mean > 0.0)) return Eigen::VectorXd::Ones(offsets.rows());
     // Bounded, because a ratio of c between neighbours costs as many digits of the weights.
-    const Eigen::VectorXd influence =
-        (distance / mean).cwiseMax(1e-6).array().pow(-power).cwiseMax(1e-3).cwiseMin(1e3).matrix();
+    double sum = 0.0;
+    for (double& c : influence) {
+        c = std::clamp(real_power(std::max(c / mean, 1e-6), -distance_power), 1e-3, 1e3);
+        sum += c;
+    }
+    return influence * (static_cast<double>(influence.size()) / sum);
+}
+
+Eigen::VectorXd influences(const Patch& patch, const InfluenceOptions& options) {
+    Eigen::VectorXd influence = influences(patch.offsets, options.distance_power);
+    if (options.sharing_power == 0.0) return influence;
+    for (Eigen::Index j = 0; j < influence.size(); ++j) {
+        const double shared = patch.shared_elements[static_cast<std::size_t>(j)];
+        influence[j] *= real_power(shared, options.sharing_power);
+    }
     return influence / influence.mean();
 }
 
@@ -188,18 +210,20 @@ PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                                : convex_weights_of<3>(offsets, influence, weights);
 }
 
-WeightFunction convex_weighting(double distance_power) {
-    return [distance_power](const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights) {
-        const Eigen::VectorXd influence = influences(patch.offsets, distance_power);
+WeightFunction convex_weighting(double distance_power, double sharing_power) {
+    return [options = InfluenceOptions{distance_power, sharing_power}](const Patch& patch,
+                                                                       Eigen::Ref<Eigen::VectorXd> weights) {
+        const Eigen::VectorXd influence = influences(patch, options);
         if (convex_weights(patch.offsets, influence, weights) == PatchStatus::regular) return PatchStatus::regular;
         const PatchStatus affine = affine_weights(patch.offsets, influence, weights);
         return affine == PatchStatus::regular ? PatchStatus::outside_hull : affine;
     };
 }
 
-WeightFunction affine_weighting(double distance_power) {
-    return [distance_power](const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights) {
-        return affine_weights(patch.offsets, influences(patch.offsets, distance_power), weights);
+WeightFunction affine_weighting(double distance_power, double sharing_power) {
+    return [options = InfluenceOptions{distance_power, sharing_power}](const Patch& patch,
+                                                                       Eigen::Ref<Eigen::VectorXd> weights) {
+        return affine_weights(patch.offsets, influences(patch, options), weights);
     };
 }
 
@@ -225,7 +249,7 @@ WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, c
             const Eigen::Map<const Eigen::MatrixXd> offsets(buffer.data(), static_cast<Eigen::Index>(count), dim);
             Eigen::Map<Eigen::VectorXd> weights(table.weights.data() + sets.offsets[i],
                                                 static_cast<Eigen::Index>(count));
-            table.status[i] = weighting({interior[i], neighbours, offsets}, weights);
+            table.status[i] = weighting({interior[i], neighbours, offsets, sets.shared_elements_of(i)}, weights);
         }
     });
     return table;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -25,6 +26,8 @@ struct Patch {
     std::span<const Index> neighbours;  ///< in the mesh
     /// neighbours × dimension (2 or 3): their positions minus the node's, in the mesh's unit.
     Eigen::Ref<const Eigen::MatrixXd> offsets;
+    /// Per neighbour: how many elements contain it and the node.
+    std::span<const std::uint16_t> shared_elements = {};
 };
 
 /// A weighting: writes one weight per neighbour of the patch. The warp moves the node by the weighted sum of its
@@ -32,9 +35,20 @@ struct Patch {
 /// out exactly. Called from several threads at once.
 using WeightFunction = std::function<PatchStatus(const Patch& patch, Eigen::Ref<Eigen::VectorXd> weights)>;
 
-/// Influence of each neighbour: c_j = |y_j|^-power, scaled to a mean of 1. offsets: neighbours × dimension. Power 0
-/// gives ones: the thesis's weights. Kept within a factor of 1000 of the influence at the mean distance.
-Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double power);
+/// base^exponent, quickly for small whole exponents; base > 0.
+double real_power(double base, double exponent);
+
+/// How much the neighbours of a patch count against each other; see influences.
+struct InfluenceOptions {
+    double distance_power = 0.0;
+    double sharing_power = 0.0;
+};
+
+/// Influence of each neighbour: c_j = |y_j|^-distance_power · n_j^sharing_power, where n_j is the number of elements
+/// that the neighbour shares with the node. offsets: neighbours × dimension. Both powers 0 give ones: the thesis's
+/// weights. The distance's part is kept within a factor of 1000 of the influence at the mean distance. Mean 1.
+Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double distance_power);
+Eigen::VectorXd influences(const Patch& patch, const InfluenceOptions& options);
 
 /// Affine weights that minimise sum w_j^2 / c_j; for c = 1 those of least 2-norm (thesis 2.6-2.9): w = C A^T (A C
 /// A^T)^-1 b. offsets: neighbours × dimension (2 or 3), neighbour positions minus the node's, in any one unit.
@@ -54,8 +68,8 @@ PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 
 /// The weightings of this library as functions of a patch. Where convex weights do not exist they give affine ones, and
 /// the status says so.
-WeightFunction convex_weighting(double distance_power);
-WeightFunction affine_weighting(double distance_power);
+WeightFunction convex_weighting(double distance_power, double sharing_power = 0.0);
+WeightFunction affine_weighting(double distance_power, double sharing_power = 0.0);
 
 /// Weights of all free nodes, one per entry of sets.nodes.
 struct WeightTable {
