@@ -15,7 +15,7 @@
 ///     if (report.summary.valid == report.summary.elements()) write_mesh("part.vtu", result);
 ///
 /// Functions throw curvewright::Error, whose what() is one sentence. Those that can take long have a TaskContext as
-/// their last parameter, for progress and cancellation. examples/warp_mesh is a complete program.
+/// their last parameter, for progress and cancellation. examples/ has complete programs.
 
 #include "core/base/error.h"
 #include "core/base/ids.h"

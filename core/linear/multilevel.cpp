@@ -141,7 +141,8 @@ void MultilevelPreconditioner::apply(const MultiVector& r, MultiVector& z, Works
 
 std::string MultilevelPreconditioner::description() const {
     if (!coarse_) return "Gauss-Seidel";
-    return fmt::format("Gauss-Seidel and {} levels over {} vertices", coarse_->level_count(), prolongation_.cols());
+    return fmt::format("Gauss-Seidel and {} level{} over {} vertices", coarse_->level_count(),
+                       coarse_->level_count() == 1 ? "" : "s", prolongation_.cols());
 }
 
 }  // namespace curvewright

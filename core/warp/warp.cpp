@@ -56,6 +56,19 @@ WeightFunction weighting_of(const WarpOptions& options) {
     }
 }
 
+/// Throws if there are nodes without the weights that were asked for.
+void refuse(const std::vector<Index>& outside_hull, const std::vector<Index>& degenerate,
+            const MeshTopology& topology) {
+    const auto throw_for = [&](const std::vector<Index>& nodes, const char* what) {
+        if (!nodes.empty())
+            throw SolverFailure(fmt::format("{} {} {}; the first is node {}.", nodes.size(),
+                                            nodes.size() == 1 ? "node" : "nodes", what,
+                                            topology.node_tag(nodes.front()).value));
+    };
+    throw_for(outside_hull, "on or outside the hull of the neighbours, where there are no convex weights");
+    throw_for(degenerate, "with neighbours that all lie on a line or in a plane");
+}
+
 /// Factors that make the rows of D_I more symmetric: a weight is about the neighbour's influence over the sum of the
 /// patch's influences, and the part of the influence that shared elements give is the same seen from both ends.
 Eigen::VectorXd symmetric_scale(const Numbering& numbering, const NeighbourSets& sets, double sharing_power) {
@@ -137,12 +150,7 @@ BlockMatrix Warper::Data::equations(CoarseSpace& coarse, const TaskContext& cont
     }
     std::sort(report.outside_hull.begin(), report.outside_hull.end());
     std::sort(report.degenerate.begin(), report.degenerate.end());
-    if (options.outside_hull == OutsideHull::refuse && !report.outside_hull.empty())
-        throw SolverFailure(
-            fmt::format("{} nodes do not lie strictly inside the hull of their neighbours, so that they have no convex "
-                        "weights; the "
-                        "first is node {}.",
-                        report.outside_hull.size(), mesh.topology().node_tag(report.outside_hull.front()).value));
+    if (options.outside_hull == OutsideHull::refuse) refuse(report.outside_hull, report.degenerate, mesh.topology());
     BlockMatrix result = weight_equations(numbering, sets, table, context);
     for (const double value : result.values)
         if (!std::isfinite(value)) throw SolverFailure("The weighting gave a weight that is not finite.");
@@ -175,8 +183,9 @@ void Warper::Data::set_up(const TaskContext& context) {
     }
     affine = AffineFit(mesh, given_nodes);
     LinearSystem system;
-    CondensedEquations condensed = condense(numbering, equations(system.coarse, context), context);
+    BlockMatrix all = equations(system.coarse, context);
     const Stopwatch watch;
+    CondensedEquations condensed = condense(numbering, std::move(all), context);
     coupling = std::move(condensed.coupling);
     groups = std::move(condensed.groups);
     system.matrix = std::move(condensed.matrix);

@@ -21,9 +21,10 @@ enum class Weighting {
 };
 const char* to_string(Weighting weighting);
 
-/// What to do with a node that lies on or outside the hull of its neighbours, for which convex weights do not exist.
+/// What to do with a node for which the weights do not exist: convex ones, because it lies on or outside the hull of
+/// its neighbours, or any, because these lie on a line or in a plane.
 enum class OutsideHull {
-    affine,  ///< takes affine weights for it; WarpReport names it
+    affine,  ///< takes affine, or least-squares weights for it; WarpReport names it
     refuse,  ///< throws SolverFailure that names it
 };
 
