@@ -89,6 +89,26 @@ bool is_assessable(const CurvedMesh& mesh) {
     }
 }
 
+Assessment assess(const CurvedMesh& mesh, const TaskContext& context, Json& timings, const QualityOptions& options) {
+    try {
+        return {certify(mesh, context, timings, options), {}};
+    } catch (const Unsupported& problem) {
+        return {std::nullopt, problem.what()};
+    }
+}
+
+Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, const TaskContext& context,
+                         Json& timings) {
+    QualityOptions options;
+    if (original.report) options.orientation_sign = original.report->orientation_sign;
+    return assess(mesh, context, timings, options);
+}
+
+void add_assessment(Json& json, const Assessment& assessment) {
+    json["scaled_jacobian"] = assessment.report ? summary_json(assessment.report->summary) : Json();
+    if (!assessment.report) json["quality_note"] = assessment.note;
+}
+
 std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
                                          const TaskContext& context, Json& timings) {
     const auto format = output.format ? output.format : format_of_suffix(output.file);

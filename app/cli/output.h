@@ -41,6 +41,20 @@ QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& origin
                              Json& timings);
 /// Whether the quality of the mesh can be assessed at all.
 bool is_assessable(const CurvedMesh& mesh);
+
+/// The quality of a mesh, or why there is none.
+struct Assessment {
+    std::optional<QualityReport> report;
+    std::string note;  ///< one sentence; empty if there is a report
+};
+/// certify for any mesh.
+Assessment assess(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
+                  const QualityOptions& options = {});
+/// assess of what became of `original`: judged with its orientation.
+Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, const TaskContext& context, Json& timings);
+/// Adds "scaled_jacobian"; where there is no report that is null, and "quality_note" says why.
+void add_assessment(Json& json, const Assessment& assessment);
+
 /// The quality that belongs in the output: none for MSH, which has no place for it, and for meshes that are not
 /// assessable.
 std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,

@@ -33,7 +33,20 @@ const char* to_string(Weighting weighting) {
 namespace {
 
 void check(const CurvedMesh& mesh, const WarpOptions& options) {
-    if (mesh.topology().dimension() < 2) throw Unsupported("Warping needs a mesh of dimension 2 or 3.");
+    const MeshTopology& topology = mesh.topology();
+    if (topology.dimension() < 2) throw Unsupported("Warping needs a mesh of dimension 2 or 3.");
+    if (topology.boundary_nodes().empty())
+        throw Unsupported("The mesh has no boundary that could be moved; it is closed, or it has no elements.");
+    if (topology.dimension() == 2) {
+        const double plane = mesh.coordinates()(topology.boundary_nodes().front(), 2);
+        for (const std::vector<Index>* nodes : {&topology.boundary_nodes(), &topology.interior_nodes()})
+            for (const Index node : *nodes)
+                if (mesh.coordinates()(node, 2) != plane)
+                    throw Unsupported(fmt::format(
+                        "Node {} lies at z = {}, others at z = {}; a mesh of surface elements must lie in a plane of "
+                        "constant z to be warped.",
+                        topology.node_tag(node).value, mesh.coordinates()(node, 2), plane));
+    }
     if (!(options.distance_power >= 0.0 && options.distance_power <= 8.0))
         throw InvalidInput(fmt::format("The distance power is {}; it must be from 0 to 8.", options.distance_power));
     if (!(options.sharing_power >= -8.0 && options.sharing_power <= 8.0))

@@ -4,7 +4,9 @@
 
 #include <QDir>
 #include <QFileInfo>
+#include <QRegularExpression>
 
+#include "core/base/error.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
 #include "ui/document/number_format.h"
@@ -33,6 +35,67 @@ MeshState make_state(CurvedMesh mesh, const TaskContext& context, const MeshStat
 
 QString by_file(const QString& deformation_path) {
     return MeshJobs::tr("By %1").arg(QDir::toNativeSeparators(deformation_path));
+}
+
+QString short_number(double value) {
+    return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
+QString steps_text(const IncrementOptions& increments) {
+    if (increments.steps == 0) return MeshJobs::tr("automatic steps");
+    return increments.steps == 1 ? MeshJobs::tr("1 step")
+                                 : MeshJobs::tr("%1 steps").arg(format_count(increments.steps));
+}
+
+/// fraction: of the motion that was reached.
+QString warp_name(const WarpOptions& options, const std::optional<IncrementOptions>& increments, double fraction) {
+    QString name = fraction < 1.0 ? MeshJobs::tr("Warp to %1 %").arg(QString::number(100.0 * fraction, 'g', 4))
+                                  : MeshJobs::tr("Warp");
+    name += options.weighting == Weighting::elastic  ? MeshJobs::tr(", elastic body")
+            : options.weighting == Weighting::affine ? MeshJobs::tr(", affine weights")
+                                                     : MeshJobs::tr(", convex weights");
+    if (options.weighting != Weighting::elastic && options.distance_power != WarpOptions().distance_power)
+        name += MeshJobs::tr(", power %1").arg(short_number(options.distance_power));
+    if (increments) name += QStringLiteral(", ") + steps_text(*increments);
+    return name;
+}
+
+/// The options that were used, a line each for the weights and the steps.
+QString warp_details(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {
+    QString text;
+    if (options.weighting == Weighting::elastic) {
+        text = MeshJobs::tr("Poisson’s ratio %1, stiffening %2")
+                   .arg(short_number(options.poisson_ratio), short_number(options.stiffening));
+    } else {
+        text = MeshJobs::tr("Distance power %1").arg(short_number(options.distance_power));
+        if (options.neighbours == NeighbourKind::high_order) text += MeshJobs::tr(", high-order neighbours");
+        if (options.neighbours == NeighbourKind::edge_connected) text += MeshJobs::tr(", neighbours one edge away");
+    }
+    if (increments)
+        text += QLatin1Char('\n') + (increments->recomputes_weights
+                                         ? MeshJobs::tr("In %1, with new weights at every step")
+                                         : MeshJobs::tr("In %1, with the weights of the first mesh"))
+                                        .arg(steps_text(*increments));
+    return text;
+}
+
+QString describe_increments(const IncrementReport& report, const MeshTopology& topology) {
+    static const QRegularExpression minus(QStringLiteral("-(?=\\d)"));
+    return QString::fromStdString(describe(report, topology)).replace(minus, QString(QChar(0x2212)));
+}
+
+QString describe_warp(const WarpReport& report) {
+    QString text = MeshJobs::tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
+    text += report.solver == SolverChoice::direct
+                ? MeshJobs::tr(" (direct solver).")
+                : MeshJobs::tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
+    if (!report.outside_hull.empty())
+        text += MeshJobs::tr(" %1 nodes have no convex weights and took affine ones.")
+                    .arg(format_count(static_cast<long long>(report.outside_hull.size())));
+    if (!report.degenerate.empty())
+        text += MeshJobs::tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
+                    .arg(format_count(static_cast<long long>(report.degenerate.size())));
+    return text;
 }
 
 Index moved_nodes(const Coordinates& a, const Coordinates& b) {
@@ -123,36 +186,45 @@ bool MeshJobs::deform() {
     });
 }
 
-bool MeshJobs::warp(const WarpOptions& options) {
+bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {
     if (!why_not_warp().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
-    return run_step(tr("Warping"), true, [loaded, options](const CurvedMesh& mesh, const TaskContext& context) {
-        WarpOptions with_interfaces = options;
-        with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
-        WarpResult result =
-            curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
-        const WarpReport& report = result.report;
-        Step step;
-        step.name = options.weighting == Weighting::convex ? tr("Warp, convex weights") : tr("Warp, affine weights");
-        if (options.distance_power != WarpOptions().distance_power)
-            step.name += tr(", power %1").arg(QString::number(options.distance_power, 'g', 3));
-        step.details = by_file(loaded.file_path) + QLatin1Char('\n') +
-                       tr("Distance power %1").arg(QString::number(options.distance_power, 'g', 3));
-        step.note = tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
-        step.note += report.solver == SolverChoice::direct
-                         ? tr(" (direct solver).")
-                         : tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
-        if (!report.outside_hull.empty())
-            step.note += tr(" %1 nodes have no convex weights and took affine ones.")
-                             .arg(format_count(static_cast<long long>(report.outside_hull.size())));
-        if (!report.degenerate.empty())
-            step.note += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
-                             .arg(format_count(static_cast<long long>(report.degenerate.size())));
-        step.advice =
-            tr("Elements have tangled: undo and try another distance power (0, 4) or other weights, or untangle.");
-        step.coordinates = std::move(result.coordinates);
-        return step;
-    });
+    return run_step(
+        tr("Warping"), true, [loaded, options, increments](const CurvedMesh& mesh, const TaskContext& context) {
+            WarpOptions with_interfaces = options;
+            with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
+            Step step;
+            step.details = by_file(loaded.file_path) + QLatin1Char('\n') + warp_details(options, increments);
+            double fraction = 1.0;
+            if (increments) {
+                const BoundaryPath path = [&](double part) {
+                    return apply_deformation(mesh, *loaded.deformation, part);
+                };
+                IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context);
+                fraction = result.increments.fraction;
+                const QString way = describe_increments(result.increments, mesh.topology());
+                if (fraction == 0.0)
+                    throw SolverFailure(tr("%1 More steps or other weights may go further.").arg(way).toStdString());
+                const QString followed = describe_warp(result.report);
+                if (result.increments.is_complete()) {
+                    step.note = followed + QLatin1Char(' ') + way;
+                } else {
+                    step.note = way;
+                    step.details += QLatin1Char('\n') + followed;
+                }
+                step.coordinates = std::move(result.coordinates);
+            } else {
+                WarpResult result =
+                    curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
+                step.note = describe_warp(result.report);
+                step.coordinates = std::move(result.coordinates);
+            }
+            step.name = warp_name(options, increments, fraction);
+            step.advice =
+                tr("Elements have tangled: undo and try automatic steps, other weights or another distance power, or "
+                   "untangle.");
+            return step;
+        });
 }
 
 bool MeshJobs::untangle(const SignedAngleOptions& options) {

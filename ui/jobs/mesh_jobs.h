@@ -8,7 +8,7 @@
 
 #include "core/io/mesh_io.h"
 #include "core/untangle/signed_angles.h"
-#include "core/warp/warp.h"
+#include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/job_runner.h"
 
@@ -42,8 +42,9 @@ class MeshJobs : public QObject {
     bool load_deformation(const QString& path);
     /// Moves the boundary as the loaded deformation says; the interior stays.
     bool deform();
-    /// Moves the boundary as the loaded deformation says, relative to the mesh as it is; the interior follows.
-    bool warp(const WarpOptions& options);
+    /// Moves the boundary as the loaded deformation says, relative to the mesh as it is; the interior follows: at once,
+    /// or in increments, up to the last state without tangled elements. Fails if no increment goes without them.
+    bool warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments = {});
     bool untangle(const SignedAngleOptions& options);
     /// Numbers every element the other way round.
     bool flip();

@@ -1,6 +1,8 @@
 #include "ui/panels/operation_panels.h"
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -35,6 +37,61 @@ QFormLayout* make_form() {
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
     return form;
+}
+
+QDoubleSpinBox* make_number(const char* object_name, double lower, double upper, double step, int decimals,
+                            double value) {
+    auto* box = new QDoubleSpinBox;
+    box->setObjectName(QLatin1String(object_name));
+    box->setLocale(QLocale::c());
+    box->setDecimals(decimals);
+    box->setRange(lower, upper);
+    box->setSingleStep(step);
+    box->setValue(value);
+    return box;
+}
+
+enum class StepChoice { at_once, automatic, number };
+
+/// One entry of a choice, with what it is good for.
+struct Choice {
+    QString text;
+    int value;
+    QString tip;
+};
+
+/// The box's own tip is `tip` and that of the entry chosen.
+QComboBox* make_choice(const char* object_name, const QString& tip, const std::vector<Choice>& choices) {
+    auto* box = new QComboBox;
+    box->setObjectName(QLatin1String(object_name));
+    for (const Choice& choice : choices) {
+        box->addItem(choice.text, choice.value);
+        box->setItemData(box->count() - 1, choice.tip, Qt::ToolTipRole);
+    }
+    const auto show_tip = [box, tip] {
+        box->setToolTip(tip + QStringLiteral("\n\n") + box->currentText() + QStringLiteral(": ") +
+                        box->currentData(Qt::ToolTipRole).toString());
+    };
+    QObject::connect(box, &QComboBox::currentIndexChanged, box, show_tip);
+    show_tip();
+    return box;
+}
+
+template <class Enum>
+Enum chosen(const QComboBox* box) {
+    return static_cast<Enum>(box->currentData().toInt());
+}
+
+/// The labels of all rows in the width of the widest, so that the fields stay in place when rows are hidden.
+void align_labels(QFormLayout* form) {
+    std::vector<QWidget*> labels;
+    int width = 0;
+    for (int row = 0; row < form->rowCount(); ++row)
+        if (QLayoutItem* item = form->itemAt(row, QFormLayout::LabelRole)) {
+            labels.push_back(item->widget());
+            width = std::max(width, item->widget()->sizeHint().width());
+        }
+    for (QWidget* label : labels) label->setMinimumWidth(width);
 }
 
 QVBoxLayout* layout_of(QWidget* panel) {
@@ -132,37 +189,12 @@ void DeformPanel::show_deformation() {
 
 WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Warp"), QStringLiteral("warp_button"), parent) {
-    weights_ = new QComboBox;
-    weights_->setObjectName(QStringLiteral("weights"));
-    weights_->addItem(tr("Convex (all positive)"), int(Weighting::convex));
-    weights_->addItem(tr("Affine (least norm)"), int(Weighting::affine));
-    weights_->setToolTip(tr("How an interior node is written as a combination of its neighbours"));
-    distance_power_ = new QDoubleSpinBox;
-    distance_power_->setObjectName(QStringLiteral("distance_power"));
-    distance_power_->setRange(0.0, 8.0);
-    distance_power_->setSingleStep(0.5);
-    distance_power_->setDecimals(1);
-    distance_power_->setLocale(QLocale::c());
-    distance_power_->setValue(WarpOptions().distance_power);
-    distance_power_->setToolTip(
-        tr("How much more near neighbours count than far ones.\n"
-           "0: all neighbours alike, as in the thesis.\n"
-           "2: the default; keeps small elements near the moving boundary in shape."));
-    solver_ = new QComboBox;
-    solver_->setObjectName(QStringLiteral("solver"));
-    solver_->addItem(tr("Automatic"), int(SolverChoice::automatic));
-    solver_->addItem(tr("Direct"), int(SolverChoice::direct));
-    solver_->addItem(tr("Iterative"), int(SolverChoice::iterative));
-    solver_->setToolTip(tr("How the linear system is solved; automatic falls back from iterative to direct"));
-
-    auto* form = make_form();
-    form->addRow(tr("Weights"), weights_);
-    form->addRow(tr("Distance power"), distance_power_);
-    form->addRow(tr("Solver"), solver_);
+    make_fields();
     QVBoxLayout* layout = make_layout(this);
-    layout->addLayout(form);
-    layout->addWidget(make_paragraph(
-        tr("Moves the boundary as the deformation says, from where it is now; the interior follows."), "muted"));
+    layout->addLayout(form_);
+    explanation_ = make_paragraph(
+        tr("Moves the boundary as the deformation says, from where it is now; the interior follows."), "muted");
+    layout->addWidget(explanation_);
     applied_ = make_paragraph(
         tr("The deformation is applied already in this state. Undo that first, or it counts twice."), "");
     set_tone(applied_, "warning");
@@ -170,21 +202,131 @@ WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
     finish_layout();
 }
 
+void WarpPanel::make_fields() {
+    const WarpOptions defaults;
+    weights_ =
+        make_choice("weights", tr("How the interior follows the boundary."),
+                    {{tr("Convex weights"), int(Weighting::convex),
+                      tr("all positive: an interior node stays between its neighbours. A good first choice.")},
+                     {tr("Affine weights"), int(Weighting::affine),
+                      tr("of least norm, some may be negative. The quickest, and they exist for every node.")},
+                     {tr("Elastic body"), int(Weighting::elastic),
+                      tr("the mesh is deformed like rubber. Best for large motions and bent shells; takes longer.")}});
+    distance_power_ = make_number("distance_power", 0.0, 8.0, 0.5, 1, defaults.distance_power);
+    distance_power_->setToolTip(tr("How much more near neighbours count than far ones.\n"
+                                   "0: all neighbours alike, as in the thesis.\n"
+                                   "%1: the default; keeps small elements near the moving boundary in shape.")
+                                    .arg(defaults.distance_power));
+    steps_ = make_choice("steps", tr("Whether the boundary moves at once or in steps."),
+                         {{tr("At once"), int(StepChoice::at_once), tr("the quickest.")},
+                          {tr("Automatic"), int(StepChoice::automatic),
+                           tr("as far as goes at once, less where elements tangle. Stops at the last state without "
+                              "tangled elements.")},
+                          {tr("Number"), int(StepChoice::number),
+                           tr("so many equal steps. Stops before the step that tangles elements.")}});
+    step_count_ = new QSpinBox;
+    step_count_->setObjectName(QStringLiteral("step_count"));
+    step_count_->setRange(1, 1000);
+    step_count_->setValue(4);
+    new_weights_ = new QCheckBox(tr("New weights at every step"));
+    new_weights_->setObjectName(QStringLiteral("new_weights"));
+    new_weights_->setChecked(true);
+    new_weights_->setToolTip(
+        tr("Every step starts from the mesh that the last one left: goes further, takes longer.\n"
+           "Otherwise the steps only find out how far one can go."));
+    more_ = make_fold_button(tr("More options"), QStringLiteral("more_warp_options"));
+    neighbours_ = make_choice("neighbours", tr("Which nodes an interior node is tied to."),
+                              {{tr("All"), int(NeighbourKind::all), tr("all other nodes of its elements.")},
+                               {tr("High-order"), int(NeighbourKind::high_order),
+                                tr("those that are no vertices, for small motions. Needs order 2.")},
+                               {tr("One edge away"), int(NeighbourKind::edge_connected),
+                                tr("the fewest, so the quickest; more nodes lie outside their hull.")}});
+    poisson_ratio_ = make_number("poisson_ratio", -0.99, 0.49, 0.05, 2, defaults.poisson_ratio);
+    poisson_ratio_->setToolTip(
+        tr("How much the body gives way sideways when it is pulled.\n"
+           "Near 0.5 it keeps its volume, at 0 it keeps its width."));
+    stiffening_ = make_number("stiffening", 0.0, 4.0, 0.5, 1, defaults.stiffening);
+    stiffening_->setToolTip(
+        tr("How much stiffer small elements are than large ones.\n"
+           "0: all alike. 1: in inverse proportion to their volume; they keep their shape."));
+    solver_ = make_choice("solver", tr("How the linear system is solved."),
+                          {{tr("Automatic"), int(SolverChoice::automatic), tr("the program chooses by the size.")},
+                           {tr("Direct"), int(SolverChoice::direct), tr("a factorisation; needs more memory.")},
+                           {tr("Iterative"), int(SolverChoice::iterative), tr("for large meshes.")}});
+
+    form_ = make_form();
+    form_->addRow(tr("Weights"), weights_);
+    form_->addRow(tr("Distance power"), distance_power_);
+    form_->addRow(tr("Steps"), steps_);
+    form_->addRow(tr("How many"), step_count_);
+    form_->addRow(new_weights_);
+    form_->addRow(more_);
+    form_->addRow(tr("Neighbours"), neighbours_);
+    form_->addRow(tr("Poisson’s ratio"), poisson_ratio_);
+    form_->addRow(tr("Stiffening"), stiffening_);
+    form_->addRow(tr("Solver"), solver_);
+    align_labels(form_);
+    const auto follow = [this] {
+        show_fields();
+        refresh();
+    };
+    connect(weights_, &QComboBox::currentIndexChanged, this, follow);
+    connect(steps_, &QComboBox::currentIndexChanged, this, follow);
+    connect(more_, &QPushButton::toggled, this, follow);
+    show_fields();
+}
+
+void WarpPanel::show_fields() {
+    const bool is_elastic = chosen<Weighting>(weights_) == Weighting::elastic, is_unfolded = more_->isChecked();
+    const auto steps = chosen<StepChoice>(steps_);
+    form_->setRowVisible(distance_power_, !is_elastic);
+    form_->setRowVisible(step_count_, steps == StepChoice::number);
+    form_->setRowVisible(new_weights_, steps != StepChoice::at_once);
+    form_->setRowVisible(neighbours_, is_unfolded && !is_elastic);
+    form_->setRowVisible(poisson_ratio_, is_unfolded && is_elastic);
+    form_->setRowVisible(stiffening_, is_unfolded && is_elastic);
+    form_->setRowVisible(solver_, is_unfolded);
+}
+
 void WarpPanel::run() {
-    jobs_.warp(options());
+    jobs_.warp(options(), increments());
+}
+
+QString WarpPanel::why_not() const {
+    const QString reason = jobs_.why_not_warp();
+    if (!reason.isEmpty() || !increments()) return reason;
+    const MeshState& state = jobs_.document().state();
+    if (!state.quality) return tr("Steps stop where elements tangle. %1 Warp at once.").arg(state.quality_note);
+    if (state.quality->summary.invalid + state.quality->summary.undecided > 0)
+        return tr("Steps start from a mesh without tangled elements: untangle it first, or warp at once.");
+    return {};
 }
 
 void WarpPanel::refresh() {
     OperationPanel::refresh();
-    applied_->setVisible(jobs_.document().is_deformation_applied());
+    const bool is_applied = jobs_.document().is_deformation_applied();
+    applied_->setVisible(is_applied);
+    explanation_->setVisible(!is_applied && !more_->isChecked());
 }
 
 WarpOptions WarpPanel::options() const {
     WarpOptions options;
-    options.weighting = static_cast<Weighting>(weights_->currentData().toInt());
+    options.weighting = chosen<Weighting>(weights_);
     options.distance_power = distance_power_->value();
-    options.solver = static_cast<SolverChoice>(solver_->currentData().toInt());
+    options.neighbours = chosen<NeighbourKind>(neighbours_);
+    options.poisson_ratio = poisson_ratio_->value();
+    options.stiffening = stiffening_->value();
+    options.solver = chosen<SolverChoice>(solver_);
     return options;
+}
+
+std::optional<IncrementOptions> WarpPanel::increments() const {
+    const auto choice = chosen<StepChoice>(steps_);
+    if (choice == StepChoice::at_once) return std::nullopt;
+    IncrementOptions increments;
+    increments.steps = choice == StepChoice::automatic ? 0 : step_count_->value();
+    increments.recomputes_weights = new_weights_->isChecked();
+    return increments;
 }
 
 void LogSpinBox::stepBy(int steps) {

@@ -7,6 +7,7 @@
 
 class QCheckBox;
 class QComboBox;
+class QFormLayout;
 class QLabel;
 class QPushButton;
 class QSpinBox;
@@ -64,15 +65,24 @@ class WarpPanel : public OperationPanel {
   public:
     explicit WarpPanel(MeshJobs& jobs, QWidget* parent = nullptr);
     void run() override;
-    QString why_not() const override { return jobs_.why_not_warp(); }
+    QString why_not() const override;
     WarpOptions options() const;
+    /// None: at once.
+    std::optional<IncrementOptions> increments() const;
 
   private:
     void refresh() override;
+    void make_fields();
+    /// Only what belongs to the choices made.
+    void show_fields();
 
-    QComboBox *weights_ = nullptr, *solver_ = nullptr;
-    QDoubleSpinBox* distance_power_ = nullptr;
-    QLabel* applied_ = nullptr;
+    QComboBox *weights_ = nullptr, *steps_ = nullptr, *neighbours_ = nullptr, *solver_ = nullptr;
+    QDoubleSpinBox *distance_power_ = nullptr, *poisson_ratio_ = nullptr, *stiffening_ = nullptr;
+    QSpinBox* step_count_ = nullptr;
+    QCheckBox* new_weights_ = nullptr;
+    QPushButton* more_ = nullptr;
+    QFormLayout* form_ = nullptr;
+    QLabel *explanation_ = nullptr, *applied_ = nullptr;
 };
 
 /// A spin box whose steps change the leading digit: 0.002, 0.003, ... 0.009, 0.01, 0.02.

@@ -27,6 +27,20 @@ QPushButton* make_primary_button(const QString& text, const QString& object_name
     return button;
 }
 
+QPushButton* make_fold_button(const QString& text, const QString& object_name) {
+    auto* button = new QPushButton;
+    button->setObjectName(object_name);
+    button->setProperty("link", true);
+    button->setCheckable(true);
+    button->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Fixed);
+    const auto show = [button, text](bool is_unfolded) {
+        button->setText((is_unfolded ? QStringLiteral("▾ ") : QStringLiteral("▸ ")) + text);
+    };
+    QObject::connect(button, &QPushButton::toggled, button, show);
+    show(false);
+    return button;
+}
+
 void set_tone(QLabel* label, const char* tone) {
     if (label->property("tone").toString() == QLatin1String(tone)) return;
     label->setProperty("tone", QLatin1String(tone));
