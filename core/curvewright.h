@@ -29,6 +29,7 @@
 #include "core/mesh/elevate.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/quality/quality.h"
+#include "core/untangle/guaranteed.h"
 #include "core/untangle/observer.h"
 #include "core/untangle/signed_angles.h"
 #include "core/warp/incremental.h"

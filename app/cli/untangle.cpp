@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/quality/shape_quality.h"
+#include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/untangle/trace.h"
 
@@ -16,7 +18,19 @@ namespace {
 struct Options {
     std::filesystem::path mesh, trace;
     OutputOptions output;
+    std::string method;  ///< as given; empty = guaranteed, or signed-angle where its beta is given
+    bool has_beta = false;
     SignedAngleOptions signed_angles;
+    GuaranteedOptions guaranteed;
+
+    bool is_guaranteed() const { return method == "guaranteed" || (method.empty() && !has_beta); }
+};
+
+/// What a method has to say about its run, for the report.
+struct Outcome {
+    Coordinates coordinates;
+    Json details = Json::object();
+    std::string text;
 };
 
 /// A trace file that becomes visible when it is complete.
@@ -44,6 +58,49 @@ Json shape_json(const ShapeSummary& shape) {
     return {{"min", shape.min}, {"mean", shape.mean}};
 }
 
+Outcome run_signed_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
+                          const TaskContext& context, Json& timings) {
+    const Stopwatch watch;
+    UntangleResult result = untangle_signed_angles(input, options.signed_angles, observer, context);
+    timings["untangle"] = watch.seconds();
+    Outcome outcome;
+    outcome.details = {{"method", "signed-angle"},
+                       {"beta", options.signed_angles.beta},
+                       {"passes", result.passes},
+                       {"stopped", to_string(result.reason)}};
+    outcome.text = fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
+                               to_string(result.reason), watch.seconds());
+    outcome.coordinates = std::move(result.coordinates);
+    return outcome;
+}
+
+Outcome run_guaranteed(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
+                       const TaskContext& context, Json& timings) {
+    GuaranteedResult result = untangle_guaranteed(input, options.guaranteed, observer, context);
+    timings["untangle"] = result.valid_seconds;
+    timings["improve"] = result.improve_seconds;
+    Outcome outcome;
+    Json unmended = Json::array();
+    for (const UnmendedElement& element : result.unmended)
+        unmended.push_back(
+            {{"element", input.topology().element_tag(element.element).value}, {"reason", element.reason}});
+    outcome.text = fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", result.valid_seconds,
+                               result.improve_seconds);
+    constexpr std::size_t listed = 5;
+    for (std::size_t i = 0; i < std::min(listed, result.unmended.size()); ++i)
+        outcome.text +=
+            fmt::format("\nelement {} cannot be mended with the boundary as it is: {}",
+                        input.topology().element_tag(result.unmended[i].element).value, result.unmended[i].reason);
+    if (result.unmended.size() > listed)
+        outcome.text += fmt::format("\nand {} more elements", result.unmended.size() - listed);
+    outcome.details = {{"method", "guaranteed"},
+                       {"rounds", result.rounds},
+                       {"stopped", to_string(result.reason)},
+                       {"unmended", std::move(unmended)}};
+    outcome.coordinates = std::move(result.coordinates);
+    return outcome;
+}
+
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
     const Stopwatch watch;
@@ -53,10 +110,9 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     warn_about_orientation(before, invocation);
     std::optional<TraceFile> trace;
     if (!options.trace.empty()) trace.emplace(options.trace);
-    const Stopwatch untangling;
-    const UntangleResult result =
-        untangle_signed_angles(input, options.signed_angles, trace ? trace->observer() : nullptr, context);
-    timings["untangle"] = untangling.seconds();
+    UntangleObserver* observer = trace ? trace->observer() : nullptr;
+    const Outcome result = options.is_guaranteed() ? run_guaranteed(input, options, observer, context, timings)
+                                                   : run_signed_angles(input, options, observer, context, timings);
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
     const QualityReport after = certify_result(mesh, before, context, timings);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
@@ -66,24 +122,20 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     finish_timings(timings, watch);
 
     if (invocation.common.json) {
-        const Json json = {
-            {"mesh", mesh_json(options.output.file, mesh)},
-            {"method", "signed-angle"},
-            {"beta", options.signed_angles.beta},
-            {"passes", result.passes},
-            {"stopped", to_string(result.reason)},
-            {"orientation", to_string(before.orientation)},
-            {"scaled_jacobian", summary_json(after.summary)},
-            {"shape", shape_json(shape)},
-            {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
-            {"worst", worst_json(mesh, after)},
-            {"timings", timings}};
+        Json json = {{"mesh", mesh_json(options.output.file, mesh)}};
+        json.update(result.details);
+        json.update(
+            {{"orientation", to_string(before.orientation)},
+             {"scaled_jacobian", summary_json(after.summary)},
+             {"shape", shape_json(shape)},
+             {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
+             {"worst", worst_json(mesh, after)},
+             {"timings", timings}});
         print_json(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
-        fmt::print("{} {} ({}), {:.3f} s\n", result.passes, result.passes == 1 ? "pass" : "passes",
-                   to_string(result.reason), timings["untangle"].get<double>());
+        fmt::print("{}\n", result.text);
     }
     return validity_status(after.summary);
 }
@@ -95,15 +147,23 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh);
     add_output_options(*command, options->output);
-    command->add_option("--method", "signed-angle (default)")->check(CLI::IsMember({"signed-angle"}));
+    command->add_option("--method", options->method, "guaranteed (default; signed-angle with --beta) or signed-angle")
+        ->check(CLI::IsMember({"guaranteed", "signed-angle"}));
     command
-        ->add_option("--beta", options->signed_angles.beta,
-                     "Weight of the angles against the displacement, in (0, 1]; small for stretched layers")
+        ->add_option_function<double>(
+            "--beta",
+            [options](double beta) {
+                options->signed_angles.beta = beta;
+                options->has_beta = true;
+            },
+            fmt::format(
+                "Weight of the angles against the displacement, in (0, 1], {} unless given; small for stretched "
+                "layers",
+                options->signed_angles.beta))
         ->check([](const std::string& text) {
             const double beta = std::strtod(text.c_str(), nullptr);
             return beta > 0.0 && beta <= 1.0 ? std::string() : "beta must be greater than 0 and at most 1";
-        })
-        ->capture_default_str();
+        });
     command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
@@ -111,6 +171,14 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
                       "Take back a pass that lowers the certified quality, and stop there");
     command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")
         ->type_name("FILE.jsonl");
+    command
+        ->add_option("--target", options->guaranteed.target,
+                     "Elements below this scaled Jacobian are improved once all are valid (guaranteed)")
+        ->type_name("Q")
+        ->check(CLI::Range(1e-6, 1.0))
+        ->capture_default_str();
+    command->add_flag("!--valid-only", options->guaranteed.improves,
+                      "Stop as soon as all elements are valid (guaranteed)");
     set_action(*command, invocation, options, run);
 }
 
