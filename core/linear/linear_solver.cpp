@@ -23,7 +23,7 @@ namespace {
 
 constexpr double usable_residual = 1e-6;
 /// Unknowns below which a factorisation is as quick as making a preconditioner.
-constexpr Eigen::Index small_system = 600;
+constexpr Eigen::Index small_system = 400;
 
 using ColumnMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor>;
 
@@ -50,8 +50,10 @@ class FactorisationBy final : public Factorisation {
 };
 
 std::unique_ptr<Factorisation> factorise(const ColumnMatrix& matrix, bool is_symmetric, Ordering ordering) {
-    // METIS does not take graphs without edges.
-    const bool dissects = ordering == Ordering::nested_dissection && matrix.nonZeros() > 2 * matrix.rows();
+    // Small graphs have nothing to be dissected; METIS does not take those without edges.
+    constexpr Eigen::Index smallest = 2000;
+    const bool dissects = ordering == Ordering::nested_dissection && matrix.rows() > smallest &&
+                          matrix.nonZeros() > 2 * matrix.rows();
     if (is_symmetric) {
         if (dissects)
             return std::make_unique<

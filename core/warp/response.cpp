@@ -1,6 +1,7 @@
 #include "core/warp/response.h"
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -71,24 +72,30 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
         fields_.row(static_cast<Eigen::Index>(i)) = response.row(moving_[i]);
 }
 
-template <int Fields>
-void ResponseField::apply_fields(const Eigen::MatrixXd& factors, const Coordinates& start, Coordinates& result) const {
-    const Eigen::Index fields = fields_.cols(), components = factors.cols();
-    parallel_for(moving_.size(), 8192, {}, {}, [&](std::size_t begin, std::size_t end) {
+namespace {
+
+/// rows(row) = from(row) + the fields of the row times the coefficients of the motion. Scalar fields (Fields of them)
+/// have a coefficient per coordinate; vector fields one coefficient and Dim columns each.
+template <int Dim, int Fields, bool IsVector>
+void add_response(const std::vector<Index>& nodes, const MultiVector& fields, const double* coefficients,
+                  const Coordinates& start, Coordinates& result) {
+    constexpr int width = IsVector ? Fields * Dim : Fields;
+    parallel_for(nodes.size(), 8192, {}, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const double* field = fields_.data() + static_cast<Eigen::Index>(i) * fields;
-            const double* from = start.data() + static_cast<std::ptrdiff_t>(moving_[i]) * 3;
-            double* to = result.data() + static_cast<std::ptrdiff_t>(moving_[i]) * 3;
-            const Eigen::Index count = Fields > 0 ? Fields : fields;
-            for (Eigen::Index d = 0; d < components; ++d) {
-                double sum = from[d];
-                const double* factor = factors.data() + d * fields;
-                for (Eigen::Index f = 0; f < count; ++f) sum += factor[f] * field[f];
-                to[d] = sum;
-            }
+            const double* field = fields.data() + i * width;
+            const double* from = start.data() + static_cast<std::size_t>(nodes[i]) * 3;
+            double* to = result.data() + static_cast<std::size_t>(nodes[i]) * 3;
+            double sum[Dim];
+            for (int d = 0; d < Dim; ++d) sum[d] = from[d];
+            for (int f = 0; f < Fields; ++f)
+                for (int d = 0; d < Dim; ++d)
+                    sum[d] += IsVector ? coefficients[f] * field[f * Dim + d] : coefficients[f * Dim + d] * field[f];
+            for (int d = 0; d < Dim; ++d) to[d] = sum[d];
         }
     });
 }
+
+}  // namespace
 
 void ResponseField::apply(const AffineMotion& motion, const Coordinates& start, Coordinates& result) const {
     const Eigen::Matrix3d linear = motion.linear - Eigen::Matrix3d::Identity();
@@ -100,27 +107,22 @@ void ResponseField::apply(const AffineMotion& motion, const Coordinates& start, 
     const auto coefficient = [&](int function, int a) {
         return function == 0 ? motion.shift[a] : linear(a, function - 1);
     };
-    // fields × components
-    Eigen::MatrixXd factors = Eigen::MatrixXd::Zero(fields_.cols(), dim_);
+    // Per function and direction of the motion.
+    std::array<double, 12> coefficients{};
     for (int f = 0; f < functions; ++f)
-        for (int a = 0; a < dim_; ++a) {
-            if (!is_vector_) {
-                factors(f, a) = coefficient(f, a);
-                continue;
-            }
-            for (int d = 0; d < dim_; ++d) factors((f * dim_ + a) * dim_ + d, d) = coefficient(f, a);
-        }
+        for (int a = 0; a < dim_; ++a) coefficients[static_cast<std::size_t>(f * dim_ + a)] = coefficient(f, a);
     if (result.rows() != start.rows()) result = start;
-    switch (fields_.cols()) {
-        case 1:
-            return apply_fields<1>(factors, start, result);
-        case 3:
-            return apply_fields<3>(factors, start, result);
-        case 4:
-            return apply_fields<4>(factors, start, result);
-        default:
-            return apply_fields<0>(factors, start, result);
-    }
+    const auto add = [&]<int Dim, int Functions>() {
+        if (is_vector_)
+            add_response<Dim, Functions * Dim, true>(moving_, fields_, coefficients.data(), start, result);
+        else
+            add_response<Dim, Functions, false>(moving_, fields_, coefficients.data(), start, result);
+    };
+    const bool is_translation = kind_ == ResponseKind::translation;
+    if (dim_ == 2)
+        is_translation ? add.operator()<2, 1>() : add.operator()<2, 3>();
+    else
+        is_translation ? add.operator()<3, 1>() : add.operator()<3, 4>();
 }
 
 double ResponseField::translation_share(Index node) const {

@@ -56,9 +56,6 @@ class ResponseField {
     const std::vector<Index>& moving_nodes() const { return moving_; }
 
   private:
-    template <int Fields>
-    void apply_fields(const Eigen::MatrixXd& factors, const Coordinates& start, Coordinates& result) const;
-
     int dim_ = 2;
     ResponseKind kind_;
     Eigen::Vector3d origin_;
