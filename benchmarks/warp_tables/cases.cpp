@@ -1,0 +1,58 @@
+#include "benchmarks/warp_tables/cases.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/deform/deformation.h"
+#include "core/io/deformation_file.h"
+#include "core/io/mesh_io.h"
+#include "core/mesh/elevate.h"
+
+namespace curvewright::benchmarks {
+namespace {
+
+/// Where a point of the unit circle or sphere goes: an ellipse or ellipsoid, bent, with a wave on it.
+Eigen::RowVector3d family_motion(Eigen::RowVector3d x, int dimension) {
+    x.normalize();
+    Eigen::RowVector3d moved = x;
+    moved[0] = 1.2 * x[0] + 0.15 * x[1] * x[1];
+    moved[1] = 0.9 * x[1] + 0.05 * std::cos(4.0 * x[0]);
+    if (dimension == 3) moved[2] = x[2] + 0.1 * std::sin(2.0 * x[0] * x[1]);
+    return moved;
+}
+
+}  // namespace
+
+Case family_case(const Settings& settings, int dimension, int level, int order) {
+    const char* family = dimension == 2 ? "circle" : "sphere";
+    const std::filesystem::path file = settings.families / fmt::format("{}_{}.msh", family, level);
+    if (!std::filesystem::exists(file))
+        throw InvalidInput(fmt::format("{} is missing; make the meshes with sample_meshes/families/generate.sh {}.",
+                                       file.string(), settings.families.string()));
+    const CurvedMesh mesh = elevate(read_mesh(file).mesh, order);
+    Coordinates target = mesh.coordinates();
+    for (const Index node : mesh.topology().boundary_nodes())
+        target.row(node) = family_motion(target.row(node), dimension);
+    return {fmt::format("{} {}, P{}", family, level, order), mesh, target, {}};
+}
+
+Case moving_sphere_case(const Settings& settings) {
+    const std::string name = settings.is_quick ? "moving_sphere_small" : "moving_sphere";
+    const CurvedMesh mesh = read_mesh(settings.samples / name / (name + ".msh.gz")).mesh;
+    const Deformation deformation = read_deformation(settings.samples / name / "deformation.json");
+    WarpOptions options;
+    options.prescribed_nodes = prescribed_interior_nodes(mesh, deformation);
+    return {name + ", P3", mesh, apply_deformation(mesh, deformation), options};
+}
+
+std::vector<bool> given_nodes(const Case& problem) {
+    const MeshTopology& topology = problem.mesh.topology();
+    std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
+    for (const Index node : topology.boundary_nodes()) is_given[static_cast<std::size_t>(node)] = true;
+    for (const Index node : problem.options.prescribed_nodes) is_given[static_cast<std::size_t>(node)] = true;
+    return is_given;
+}
+
+}  // namespace curvewright::benchmarks
