@@ -306,7 +306,7 @@ class Untangler {
         lbfgs.max_iterations = 50;
         minimize(lbfgs);  // the energy alone: evens the patch out
         lbfgs.max_iterations = 200;
-        lbfgs.relative_decrease = 1e-5;
+        lbfgs.relative_decrease = 3e-5;
         lbfgs.history = 10;
         distortion.energy_weight = options_.shape_weight;
         distortion.mean_weight = options_.mean_weight;

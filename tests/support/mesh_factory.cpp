@@ -38,6 +38,35 @@ class Builder {
     std::int64_t next_tag_ = 101;
 };
 
+/// Corners of n × n × n cubes (size points per direction) and their numbers.
+struct Grid {
+    explicit Grid(int n) : size(n + 1), x(size * size * size, 3) {
+        for (int k = 0; k <= n; ++k)
+            for (int j = 0; j <= n; ++j)
+                for (int i = 0; i <= n; ++i) x.row(id(i, j, k)) << double(i) / n, double(j) / n, double(k) / n;
+    }
+    Index id(int i, int j, int k) const { return (k * size + j) * size + i; }
+    /// Corners of the cube at (i, j, k) in the order of a hexahedron.
+    std::array<Index, 8> cube(int i, int j, int k) const {
+        return {id(i, j, k),     id(i + 1, j, k),     id(i + 1, j + 1, k),     id(i, j + 1, k),
+                id(i, j, k + 1), id(i + 1, j, k + 1), id(i + 1, j + 1, k + 1), id(i, j + 1, k + 1)};
+    }
+    int size;
+    Coordinates x;
+};
+
+void add_square_boundary(Builder& builder, int n) {
+    const auto id = [n](int i, int j) { return j * (n + 1) + i; };
+    const std::array<const char*, 4> names{"bottom", "right", "top", "left"};
+    for (int side = 0; side < 4; ++side) builder.add_group(1, side + 1, names[static_cast<std::size_t>(side)]);
+    for (int i = 0; i < n; ++i) {
+        builder.add_cell(Shape::line, 1, {id(i, 0), id(i + 1, 0)});
+        builder.add_cell(Shape::line, 2, {id(n, i), id(n, i + 1)});
+        builder.add_cell(Shape::line, 3, {id(i + 1, n), id(i, n)});
+        builder.add_cell(Shape::line, 4, {id(0, i + 1), id(0, i)});
+    }
+}
+
 }  // namespace
 
 CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x) {
@@ -53,21 +82,12 @@ CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x) {
 
 CurvedMesh square_mesh(int n, int order) {
     Builder builder;
-    builder.add_group(1, 1, "bottom");
-    builder.add_group(1, 2, "right");
-    builder.add_group(1, 3, "top");
-    builder.add_group(1, 4, "left");
+    add_square_boundary(builder, n);
     builder.add_group(2, 1, "domain");
     const auto id = [n](int i, int j) { return j * (n + 1) + i; };
     Coordinates x((n + 1) * (n + 1), 3);
     for (int j = 0; j <= n; ++j)
         for (int i = 0; i <= n; ++i) x.row(id(i, j)) << double(i) / n, double(j) / n, 0.0;
-    for (int i = 0; i < n; ++i) {
-        builder.add_cell(Shape::line, 1, {id(i, 0), id(i + 1, 0)});
-        builder.add_cell(Shape::line, 2, {id(n, i), id(n, i + 1)});
-        builder.add_cell(Shape::line, 3, {id(i + 1, n), id(i, n)});
-        builder.add_cell(Shape::line, 4, {id(0, i + 1), id(0, i)});
-    }
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
             const Index a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
@@ -126,6 +146,76 @@ CurvedMesh cube_mesh(int n, int order) {
     for (const auto& tetrahedron : tetrahedra)
         builder.add_cell(Shape::tetrahedron, 1, {tetrahedron.begin(), tetrahedron.end()});
     return elevate(builder.finish(x), order);
+}
+
+CurvedMesh quad_mesh(int n, int order) {
+    Builder builder;
+    add_square_boundary(builder, n);
+    builder.add_group(2, 1, "domain");
+    const auto id = [n](int i, int j) { return j * (n + 1) + i; };
+    Coordinates x((n + 1) * (n + 1), 3);
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) x.row(id(i, j)) << double(i) / n, double(j) / n, 0.0;
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+            builder.add_cell(Shape::quadrilateral, 1, {id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
+    return elevate(builder.finish(x), order);
+}
+
+CurvedMesh hex_mesh(int n, int order) {
+    Builder builder;
+    builder.add_group(3, 1, "domain");
+    const Grid grid(n);
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const auto c = grid.cube(i, j, k);
+                builder.add_cell(Shape::hexahedron, 1, {c.begin(), c.end()});
+            }
+    return elevate(builder.finish(grid.x), order);
+}
+
+CurvedMesh prism_mesh(int n, int order) {
+    Builder builder;
+    builder.add_group(3, 1, "domain");
+    const Grid grid(n);
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const auto c = grid.cube(i, j, k);
+                builder.add_cell(Shape::prism, 1, {c[0], c[1], c[2], c[4], c[5], c[6]});
+                builder.add_cell(Shape::prism, 1, {c[0], c[2], c[3], c[4], c[6], c[7]});
+            }
+    return elevate(builder.finish(grid.x), order);
+}
+
+CurvedMesh pyramid_mesh(int n) {
+    Builder builder;
+    builder.add_group(3, 1, "domain");
+    const Grid grid(n);
+    Coordinates x(grid.x.rows() + n * n * n, 3);
+    x.topRows(grid.x.rows()) = grid.x;
+    auto apex = static_cast<Index>(grid.x.rows());
+    // Faces of a hexahedron with their normal into it.
+    constexpr std::array<std::array<std::size_t, 4>, 6> faces{
+        {{0, 1, 2, 3}, {4, 7, 6, 5}, {0, 4, 5, 1}, {1, 5, 6, 2}, {2, 6, 7, 3}, {3, 7, 4, 0}}};
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i, ++apex) {
+                const auto c = grid.cube(i, j, k);
+                x.row(apex) << (i + 0.5) / n, (j + 0.5) / n, (k + 0.5) / n;
+                for (const auto& face : faces)
+                    builder.add_cell(Shape::pyramid, 1, {c[face[0]], c[face[1]], c[face[2]], c[face[3]], apex});
+            }
+    return builder.finish(x);
+}
+
+CurvedMesh with_shaken_corners(const CurvedMesh& linear, double amplitude, int order, std::mt19937& random) {
+    std::uniform_real_distribution<double> shift(-amplitude, amplitude);
+    Coordinates x = linear.coordinates();
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+        for (int d = 0; d < linear.topology().dimension(); ++d) x(i, d) += shift(random);
+    return elevate(linear.with_coordinates(x), order);
 }
 
 CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random) {

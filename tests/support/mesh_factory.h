@@ -17,6 +17,19 @@ CurvedMesh square_mesh(int n, int order);
 /// The unit cube as n × n × n cubes of six tetrahedra each; boundary triangles in the groups "x0", "x1", "y0", …, "z1".
 CurvedMesh cube_mesh(int n, int order);
 
+/// The unit square as n × n quadrilaterals; boundary lines in groups like those of square_mesh.
+CurvedMesh quad_mesh(int n, int order);
+
+/// The unit cube as n × n × n hexahedra, as twice as many prisms (axis along z), or, of order 1 only, as six pyramids
+/// per cube with their apices in its middle. One group, "domain".
+CurvedMesh hex_mesh(int n, int order);
+CurvedMesh prism_mesh(int n, int order);
+CurvedMesh pyramid_mesh(int n);
+
+/// The same mesh with its corners moved at random by up to ±amplitude (2D: in the plane; boundary corners too), and of
+/// the given order: general elements with straight edges.
+CurvedMesh with_shaken_corners(const CurvedMesh& linear, double amplitude, int order, std::mt19937& random);
+
 /// Moves every interior node by a uniformly random vector of components within ±amplitude (2D: in the plane).
 CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random);
 

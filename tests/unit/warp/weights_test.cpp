@@ -9,6 +9,7 @@
 #include <Eigen/QR>
 
 #include "tests/support/mesh_factory.h"
+#include "tests/unit/warp/convex_reference.h"
 
 namespace curvewright {
 namespace {
@@ -26,38 +27,6 @@ Eigen::MatrixXd random_patch(int pairs, int dim, std::mt19937& random) {
     return y;
 }
 
-/// Algorithm 3 of the thesis: infeasible-start Newton method on the full KKT system of
-/// min -sum c log w subject to A w = b, from w = 1 / n.
-Eigen::VectorXd convex_weights_by_kkt(const Eigen::MatrixXd& offsets, const Eigen::VectorXd& c) {
-    const Eigen::Index n = offsets.rows(), m = offsets.cols() + 1;
-    Eigen::MatrixXd a(m, n);
-    a.topRows(m - 1) = offsets.transpose();
-    a.row(m - 1).setOnes();
-    const Eigen::VectorXd b = Eigen::VectorXd::Unit(m, m - 1);
-    Eigen::VectorXd w = Eigen::VectorXd::Constant(n, 1.0 / static_cast<double>(n)), nu = Eigen::VectorXd::Zero(m);
-    const auto residual = [&](const Eigen::VectorXd& weights, const Eigen::VectorXd& multipliers) {
-        Eigen::VectorXd r(n + m);
-        r << Eigen::VectorXd(-c.cwiseQuotient(weights)) + a.transpose() * multipliers, a * weights - b;
-        return r;
-    };
-    for (int iteration = 0; iteration < 500; ++iteration) {
-        const Eigen::VectorXd r = residual(w, nu);
-        if (r.norm() < 1e-12 * static_cast<double>(n)) break;
-        Eigen::MatrixXd kkt = Eigen::MatrixXd::Zero(n + m, n + m);
-        kkt.topLeftCorner(n, n).diagonal() = c.cwiseQuotient(w.cwiseAbs2());
-        kkt.topRightCorner(n, m) = a.transpose();
-        kkt.bottomLeftCorner(m, n) = a;
-        const Eigen::VectorXd step = kkt.fullPivLu().solve(-r);
-        double t = 1.0;
-        while ((w + t * step.head(n)).minCoeff() <= 0.0) t *= 0.5;
-        while (t > 1e-12 && residual(w + t * step.head(n), nu + t * step.tail(m)).norm() > (1 - 0.1 * t) * r.norm())
-            t *= 0.5;
-        w += t * step.head(n);
-        nu += t * step.tail(m);
-    }
-    return w;
-}
-
 TEST(ConvexWeights, AgreeWithNewtonOnTheFullKktSystem) {
     std::mt19937 random(1);
     for (const int dim : {2, 3})
@@ -66,7 +35,7 @@ TEST(ConvexWeights, AgreeWithNewtonOnTheFullKktSystem) {
                 const Eigen::MatrixXd y = random_patch(pairs, dim, random);
                 Eigen::VectorXd w(y.rows());
                 ASSERT_EQ(convex_weights(y, influences(y, power), w), PatchStatus::regular);
-                EXPECT_LT((w - convex_weights_by_kkt(y, influences(y, power))).cwiseAbs().maxCoeff(), 1e-8);
+                EXPECT_LT((w - testing::convex_weights_by_kkt(y, influences(y, power))).cwiseAbs().maxCoeff(), 1e-8);
             }
 }
 
@@ -167,26 +136,6 @@ TEST(ComputeWeights, FallBackToAffineWhereConvexDoNotExist) {
     ASSERT_EQ(table.status.size(), 1u);
     EXPECT_EQ(table.status[0], PatchStatus::outside_hull);
     EXPECT_EQ(compute_weights(mesh, sets, affine_weighting(2.0)).weights, table.weights);
-}
-
-TEST(Neighbours, AreTheOtherNodesOfTheElementsOfANode) {
-    const CurvedMesh mesh = testing::square_mesh(3, 2);
-    const MeshTopology& topology = mesh.topology();
-    const NeighbourSets sets = find_neighbours(topology, topology.interior_nodes());
-    for (std::size_t i = 0; i < topology.interior_nodes().size(); ++i) {
-        std::vector<Index> expected;
-        for (Index element = 0; element < topology.element_count(); ++element) {
-            const auto nodes = topology.element_nodes(element);
-            if (std::find(nodes.begin(), nodes.end(), topology.interior_nodes()[i]) == nodes.end()) continue;
-            for (Index node : nodes)
-                if (node != topology.interior_nodes()[i]) expected.push_back(node);
-        }
-        std::sort(expected.begin(), expected.end());
-        expected.erase(std::unique(expected.begin(), expected.end()), expected.end());
-        std::vector<Index> actual(sets.of(i).begin(), sets.of(i).end());
-        std::sort(actual.begin(), actual.end());
-        EXPECT_EQ(actual, expected);
-    }
 }
 
 }  // namespace
