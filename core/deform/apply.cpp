@@ -34,7 +34,8 @@ class PointMap {
         // Rodrigues' formula.
         const Point center = to_point(op.center), k = to_point(op.axis).normalized(), v = x - center;
         const double angle = op.angle_deg * std::numbers::pi / 180.0, c = std::cos(angle), s = std::sin(angle);
-        return center + v * c + k.cross(v) * s + k * (v.dot(k) * (1 - c));
+        // As a change of x: what the axis does not turn stays to the bit, such as the z of a plane mesh.
+        return x + (c - 1) * (v - k * v.dot(k)) + k.cross(v) * s;
     }
     static Point map(const Scale& op, const Point& x) {
         const Point center = to_point(op.center);

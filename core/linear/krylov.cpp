@@ -111,7 +111,7 @@ class Solver {
         constexpr int most_restarts = 4;
         for (int start = 0; start <= most_restarts; ++start) {
             Convergence<Vectors> convergence(norms_, options_, context_);
-            for (std::size_t v = 0; v < Vectors; ++v) convergence.is_active[v] = norms_[v] > 0.0;
+            for (std::size_t v = 0; v < Vectors; ++v) convergence.is_active[v] = norms_[v] != 0.0;
             if (convergence.update(ops_.norm(residual_)))
                 is_symmetric ? conjugate_gradients(x, convergence, result.iterations)
                              : bicgstab(x, convergence, result.iterations);
@@ -120,10 +120,12 @@ class Solver {
                       [&](std::size_t e, std::size_t) { residual_.data()[e] = b_.data()[e] - residual_.data()[e]; });
             const Scalars<Vectors> norms = ops_.norm(residual_);
             result.residual = 0.0;
-            for (std::size_t v = 0; v < Vectors; ++v)
-                if (norms_[v] > 0.0)
-                    result.residual = std::isfinite(norms[v]) ? std::max(result.residual, norms[v] / norms_[v])
-                                                              : std::numeric_limits<double>::infinity();
+            for (std::size_t v = 0; v < Vectors; ++v) {
+                if (norms_[v] == 0.0) continue;
+                const double relative = norms[v] / norms_[v];
+                result.residual = std::isfinite(relative) ? std::max(result.residual, relative)
+                                                          : std::numeric_limits<double>::infinity();
+            }
             if (result.residual <= options_.tolerance || result.iterations >= options_.max_iterations ||
                 !(result.residual < 0.5 * previous))
                 break;

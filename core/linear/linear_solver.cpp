@@ -52,8 +52,8 @@ class FactorisationBy final : public Factorisation {
 std::unique_ptr<Factorisation> factorise(const ColumnMatrix& matrix, bool is_symmetric, Ordering ordering) {
     // Small graphs have nothing to be dissected; METIS does not take those without edges.
     constexpr Eigen::Index smallest = 2000;
-    const bool dissects = ordering == Ordering::nested_dissection && matrix.rows() > smallest &&
-                          matrix.nonZeros() > 2 * matrix.rows();
+    const bool dissects =
+        ordering == Ordering::nested_dissection && matrix.rows() > smallest && matrix.nonZeros() > 2 * matrix.rows();
     if (is_symmetric) {
         if (dissects)
             return std::make_unique<
@@ -134,6 +134,7 @@ class LinearSolver::Implementation {
         std::future<void> done = task.get_future();
         std::thread(std::move(task)).detach();
         while (done.wait_for(std::chrono::milliseconds(20)) != std::future_status::ready) context.check();
+        context.check();
         try {
             done.get();
         } catch (const std::bad_alloc&) {

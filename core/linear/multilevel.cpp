@@ -59,13 +59,18 @@ MultilevelPreconditioner::MultilevelPreconditioner(const BlockMatrix& matrix, co
             const Index begin = order_.pieces[piece], end = order_.pieces[piece + 1];
             const auto [stage_begin, stage_end] = stage_of_piece[piece];
             for (auto row = static_cast<std::size_t>(begin); row < static_cast<std::size_t>(end); ++row) {
+                bool has_diagonal = false;
                 for (std::size_t k = matrix.offsets[row]; k < matrix.offsets[row + 1]; ++k) {
                     const Index column = matrix.column_of[k];
-                    if (column == static_cast<Index>(row)) diagonal_[row] = k;
+                    if (column == static_cast<Index>(row)) {
+                        diagonal_[row] = k;
+                        has_diagonal = true;
+                    }
                     const bool is_in_stage = column >= stage_begin && column < stage_end;
                     if (is_in_stage && (column < begin || column >= end))
                         throw SolverFailure("Rows that are to be swept at the same time are coupled.");
                 }
+                if (!has_diagonal) throw SolverFailure("A diagonal block of the linear system is missing.");
                 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor, 3, 3>;
                 const Block diagonal = Eigen::Map<const Block>(matrix.block_at(diagonal_[row]), b, b);
                 const Block inverse = diagonal.inverse();

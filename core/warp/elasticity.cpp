@@ -151,7 +151,17 @@ BlockMatrix assemble(const CurvedMesh& mesh, const Numbering& numbering, const E
             const auto element = static_cast<Index>(e);
             table_of[e] = &tables.at(topology.element_type(element));
             geometry[e] = element_geometry<Dim>(mesh, element, *table_of[e]);
-            if (!(geometry[e].volume > 0.0) || !std::isfinite(geometry[e].volume))
+            // Rounding gives flat elements a volume, in proportion to their distance from the origin.
+            double extent = 0.0, reach = 0.0;
+            const auto nodes = topology.element_nodes(element);
+            for (int c = 0; c < corner_count(topology.element_type(element).shape); ++c) {
+                const auto corner = mesh.coordinates().row(nodes[static_cast<std::size_t>(c)]).template head<Dim>();
+                const auto first = mesh.coordinates().row(nodes[0]).template head<Dim>();
+                extent = std::max(extent, (corner - first).cwiseAbs().maxCoeff());
+                reach = std::max(reach, corner.cwiseAbs().maxCoeff());
+            }
+            const double rounding = 1e-14 * std::max(extent, reach) * std::pow(extent, Dim - 1);
+            if (!(geometry[e].volume > rounding) || !std::isfinite(geometry[e].volume))
                 throw InvalidInput(
                     fmt::format("Element {} has corners without volume; an elastic warp needs "
                                 "straight-sided elements of nonzero volume.",

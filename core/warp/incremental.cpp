@@ -14,16 +14,25 @@ bool is_valid(const QualitySummary& summary) {
     return summary.invalid == 0 && summary.undecided == 0;
 }
 
-/// The caller sees one task: what is inside a step moves its progress within the step's share.
-TaskContext context_of_step(const TaskContext& context, double from, double to) {
-    TaskContext inner;
-    inner.stop = context.stop;
-    if (context.progress)
-        inner.progress = [&context, from, to](std::string_view, double fraction) {
-            context.progress("Warping step by step", from + (to - from) * std::clamp(fraction, 0.0, 1.0));
-        };
-    return inner;
-}
+/// The caller sees one task whose progress only grows: what is inside a step moves it within the step's share.
+class StepProgress {
+  public:
+    explicit StepProgress(const TaskContext& context) : context_(context) {}
+    TaskContext context_of_step(double from, double to) {
+        TaskContext inner;
+        inner.stop = context_.stop;
+        if (context_.progress)
+            inner.progress = [this, from, to](std::string_view, double fraction) {
+                reached_ = std::max(reached_, from + (to - from) * std::clamp(fraction, 0.0, 1.0));
+                context_.progress("Warping step by step", reached_);
+            };
+        return inner;
+    }
+
+  private:
+    const TaskContext& context_;
+    double reached_ = 0.0;
+};
 
 }  // namespace
 
@@ -49,6 +58,7 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
     quality_options.orientation_sign = result.quality.orientation_sign;
 
     IncrementReport& report = result.increments;
+    StepProgress progress(context);
     std::optional<Warper> warper;
     double neighbours = 0.0, weights = 0.0, solve = 0.0;
     const bool is_automatic = increments.steps == 0;
@@ -57,7 +67,7 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
         const int number = report.accepted + 1;
         double target = is_automatic ? report.fraction + step : number * step;
         if (target > 1.0 - 1e-9 || number == increments.steps) target = 1.0;
-        const TaskContext inner = context_of_step(context, report.fraction, target);
+        const TaskContext inner = progress.context_of_step(report.fraction, target);
         if (!warper) {
             warper.emplace(mesh.with_coordinates(result.coordinates), options, inner);
             neighbours += warper->setup_report().neighbours_seconds;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -37,7 +38,8 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
     : dim_(warper.mesh().topology().dimension()),
       kind_(kind),
       origin_(origin),
-      is_vector_(warper.fields_per_motion() > 1) {
+      is_vector_(warper.fields_per_motion() > 1),
+      node_count_(warper.mesh().topology().node_count()) {
     const CurvedMesh& mesh = warper.mesh();
     const Index nodes = mesh.topology().node_count();
     if (!set.weights.empty() && set.weights.size() != set.nodes.size())
@@ -57,6 +59,9 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
                                   mesh.topology().node_tag(node).value)
                     : fmt::format("There is no node at position {}; the mesh has {} nodes.", node, nodes));
         const double weight = set.weights.empty() ? 1.0 : set.weights[i];
+        if (!std::isfinite(weight))
+            throw InvalidInput(
+                fmt::format("The weight of the dragged node {} is not finite.", mesh.topology().node_tag(node).value));
         for (int f = 0; f < functions; ++f) {
             const double value = f == 0 ? weight : weight * (mesh.coordinates()(node, f - 1) - origin[f - 1]);
             // Motion f along direction a: column a of its own group of columns.
@@ -98,6 +103,9 @@ void add_response(const std::vector<Index>& nodes, const MultiVector& fields, co
 }  // namespace
 
 void ResponseField::apply(const AffineMotion& motion, const Coordinates& start, Coordinates& result) const {
+    if (start.rows() != node_count_)
+        throw InvalidInput(
+            fmt::format("The positions are {} rows; the field's mesh has {} nodes.", start.rows(), node_count_));
     const Eigen::Matrix3d linear = motion.linear - Eigen::Matrix3d::Identity();
     if (kind_ == ResponseKind::translation && !linear.isZero(0.0))
         throw InvalidInput("This response field was made for translations; it cannot turn, scale or shear.");

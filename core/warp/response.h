@@ -47,7 +47,7 @@ class ResponseField {
     /// One frame: writes start + the response to the motion into the rows of the moving nodes of result; the other rows
     /// stay, so that the array of one frame serves the next. A result of another size becomes a copy of start first.
     /// start: positions when the drag began, nodes × 3, usually those of the warper's mesh. Multi-threaded. 2D meshes
-    /// keep their z. Throws InvalidInput for a linear part that the field does not serve.
+    /// keep their z. Throws InvalidInput for a linear part that the field does not serve, or a wrong number of rows.
     void apply(const AffineMotion& motion, const Coordinates& start, Coordinates& result) const;
 
     /// Share of the dragged set's translation that a node takes part in (elastic: in direction x of a shift along x).
@@ -60,6 +60,7 @@ class ResponseField {
     ResponseKind kind_;
     Eigen::Vector3d origin_;
     bool is_vector_ = false;  ///< elastic: a field per direction of the motion
+    Index node_count_ = 0;
     std::vector<Index> moving_;
     /// moving nodes × fields. Scalar: s, then s·(x - origin)_k per direction k. Vector: for each of these and each
     /// direction a of the motion, dimension columns of displacement.

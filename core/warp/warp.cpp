@@ -179,8 +179,12 @@ void Warper::Data::set_up(const TaskContext& context) {
     const MeshTopology& topology = mesh.topology();
     std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
     for (const Index node : topology.boundary_nodes()) is_given[static_cast<std::size_t>(node)] = true;
-    for (const Index node : options.prescribed_nodes)
+    for (const Index node : options.prescribed_nodes) {
+        if (node < 0 || node >= topology.node_count())
+            throw InvalidInput(fmt::format("There is no node at position {} to be prescribed; the mesh has {} nodes.",
+                                           node, topology.node_count()));
         if (topology.is_interior_node(node)) is_given[static_cast<std::size_t>(node)] = true;
+    }
     for (Index node = 0; node < topology.node_count(); ++node)
         if (is_given[static_cast<std::size_t>(node)]) given_nodes.push_back(node);
     const bool is_elastic = options.weighting == Weighting::elastic;
