@@ -49,6 +49,16 @@ class FactorisationBy final : public Factorisation {
     Method method_;
 };
 
+/// Eigen's METIS ordering gives new positions to old ones, as SimplicialLDLT takes it; SparseLU wants the inverse.
+struct DissectionForLu {
+    using PermutationType = Eigen::MetisOrdering<int>::PermutationType;
+    void operator()(const ColumnMatrix& matrix, PermutationType& permutation) const {
+        PermutationType inverse;
+        Eigen::MetisOrdering<int>()(matrix, inverse);
+        permutation = inverse.inverse();
+    }
+};
+
 std::unique_ptr<Factorisation> factorise(const ColumnMatrix& matrix, bool is_symmetric, Ordering ordering) {
     // Small graphs have nothing to be dissected; METIS does not take those without edges.
     constexpr Eigen::Index smallest = 2000;
@@ -60,8 +70,7 @@ std::unique_ptr<Factorisation> factorise(const ColumnMatrix& matrix, bool is_sym
                 FactorisationBy<Eigen::SimplicialLDLT<ColumnMatrix, Eigen::Lower, Eigen::MetisOrdering<int>>>>(matrix);
         return std::make_unique<FactorisationBy<Eigen::SimplicialLDLT<ColumnMatrix>>>(matrix);
     }
-    if (dissects)
-        return std::make_unique<FactorisationBy<Eigen::SparseLU<ColumnMatrix, Eigen::MetisOrdering<int>>>>(matrix);
+    if (dissects) return std::make_unique<FactorisationBy<Eigen::SparseLU<ColumnMatrix, DissectionForLu>>>(matrix);
     return std::make_unique<FactorisationBy<Eigen::SparseLU<ColumnMatrix>>>(matrix);
 }
 
@@ -107,8 +116,17 @@ class LinearSolver::Implementation {
             return;
         }
         context.report("Preparing the solver", 0.0);
-        preconditioner =
-            std::make_unique<MultilevelPreconditioner>(system.matrix, system.coarse, system.sweep, context);
+        try {
+            preconditioner =
+                std::make_unique<MultilevelPreconditioner>(system.matrix, system.coarse, system.sweep, context);
+        } catch (const SolverFailure& failure) {
+            if (options.choice == SolverChoice::iterative) throw;
+            reason = fmt::format("Direct solver for {} unknowns, because the iterative one cannot be prepared: {}",
+                                 unknowns, failure.what());
+            is_direct = true;
+            factor(context);
+            return;
+        }
         reason = fmt::format("{} with {} for {} unknowns{}", system.is_symmetric ? "Conjugate gradients" : "BiCGSTAB",
                              preconditioner->description(), unknowns,
                              options.choice == SolverChoice::iterative ? ", as asked" : "");

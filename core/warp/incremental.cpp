@@ -96,7 +96,10 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
         if (!is_automatic || 0.5 * step < increments.smallest_step) break;
         step = 0.5 * (target - report.fraction);
     }
-    if (report.is_complete()) report.failed_element.reset();
+    if (report.is_complete()) {
+        report.failed_element.reset();
+        report.failed_fraction = report.failed_scaled_jacobian = 0.0;
+    }
     result.report.neighbours_seconds = neighbours;
     result.report.weights_seconds = weights;
     result.report.solve_seconds = solve;

@@ -12,7 +12,9 @@ namespace curvewright {
 /// Which nodes an interior node is tied to.
 enum class NeighbourKind {
     all,         ///< all other nodes of its elements (thesis, 2.2)
-    high_order,  ///< those of them that are no vertices; fewer weights, for small motions. Needs order 2.
+    /// Those of them that are no vertices; fewer weights, for small motions. Needs order 2. Where two triangles form a
+    /// larger one, the nodes of their common edge lie on the hull.
+    high_order,
     /// Those one step away on the lattice of an element, the edges between nodes: the fewest weights, but the node lies
     /// close to the edge of their hull.
     edge_connected,

@@ -19,6 +19,7 @@ template <int Dim>
 PatchStatus affine_weights_of(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                               const Eigen::Ref<const Eigen::VectorXd>& influence, Eigen::Ref<Eigen::VectorXd> weights) {
     const Eigen::Index n = offsets.rows();
+    if (n == 0) return PatchStatus::degenerate;
     double scale = offsets.cwiseAbs().maxCoeff();
     if (!(scale > 0.0)) scale = 1.0;
     using Row = Eigen::Matrix<double, Dim + 1, 1>;
