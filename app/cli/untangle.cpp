@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 
 #include <fmt/format.h>
@@ -175,7 +176,10 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->add_option("--target", options->guaranteed.target,
                      "Elements below this scaled Jacobian are improved once all are valid (guaranteed)")
         ->type_name("Q")
-        ->check(CLI::Range(1e-6, 1.0))
+        ->check([](const std::string& text) {
+            const double target = std::strtod(text.c_str(), nullptr);
+            return target > 0.0 && target <= 1.0 ? std::string() : "the target must be greater than 0 and at most 1";
+        })
         ->capture_default_str();
     command->add_flag("!--valid-only", options->guaranteed.improves,
                       "Stop as soon as all elements are valid (guaranteed)");

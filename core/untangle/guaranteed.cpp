@@ -218,7 +218,7 @@ class Untangler {
             for (const int count : rounds) result.rounds += count;
             end_pass(result.coordinates);
             seeds = tangled();
-            context_.report("Untangling", 1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
+            context_.report("Making elements valid", 1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
         }
     }
 
@@ -256,7 +256,10 @@ class Untangler {
             objective.store(variables, x);
             const std::vector<ElementQuality> now = certify(patch.elements, x);
             best.offer(patch, x, now);
-            if (Standing(now).not_valid == 0) break;
+            if (Standing(now).not_valid == 0) {
+                ++rounds;
+                break;
+            }
             for (std::size_t i = 0; i < now.size(); ++i)
                 if (!is_valid(now[i])) objective.add_sample(i, now[i].worst_point);
         }

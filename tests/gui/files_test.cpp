@@ -1,6 +1,7 @@
 /// Opening, dropping, saving, exporting and closing, as a user does them.
 
 #include <QAction>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
@@ -294,6 +295,7 @@ class FilesTest : public QObject {
         QVERIFY(test.wait_for_job());
         QVERIFY(test.window->document().state().quality->summary.invalid > 0);
         QVERIFY(test.find<QPushButton>("untangle_button")->isVisible());
+        QCOMPARE(test.find<QComboBox>("method")->currentText(), QStringLiteral("Signed angles"));
         QCOMPARE(test.find<QDoubleSpinBox>("beta")->value(), 0.25);
         // It is where the user starts: leaving it loses nothing.
         QCOMPARE(test.window->document().history()->count(), 1);

@@ -76,7 +76,12 @@ class WindowTest : public QObject {
         QVERIFY(!test.find<QPushButton>("warp_button")->isEnabled());
         QCOMPARE(test.text("warp_button_reason"), QStringLiteral("Load a deformation first."));
         tabs->setCurrentIndex(2);
+        QVERIFY(test.find<QPushButton>("untangle_button")->isEnabled());
+        QVERIFY(test.find<QToolButton>("tool_untangle")->isEnabled());
+        auto* method = test.find<QComboBox>("method");
+        method->setCurrentIndex(method->findText(QStringLiteral("Signed angles")));
         QVERIFY(!test.find<QPushButton>("untangle_button")->isEnabled());
+        QVERIFY(!test.find<QToolButton>("tool_untangle")->isEnabled());
         QVERIFY(test.text("untangle_button_reason").contains(QStringLiteral("P2 tetrahedron")));
     }
 

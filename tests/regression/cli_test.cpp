@@ -80,30 +80,6 @@ TEST_F(CommandLine, DeformMovesTheBoundaryOnly) {
     EXPECT_EQ(read_mesh(by_table).mesh.coordinates(), after.coordinates());
 }
 
-TEST_F(CommandLine, UntangleKeepsTheBoundaryAndWritesATrace) {
-    make_tangled();
-    const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
-    const ProcessResult result =
-        cli({"untangle", tangled, "-o", out, "--method", "signed-angle", "--beta", "0.7", "--json", "--trace", trace});
-    ASSERT_EQ(result.status, 0) << result.errors;
-    const Json json = Json::parse(result.output);
-    EXPECT_EQ(json["before"]["scaled_jacobian"]["invalid"], 2);
-    EXPECT_EQ(json["scaled_jacobian"]["invalid"], 0);
-    EXPECT_NEAR(json["scaled_jacobian"]["min"].get<double>(), 0.456, 5e-3);
-    EXPECT_GT(json["shape"]["min"].get<double>(), 0.5);
-    EXPECT_TRUE(json["timings"].contains("untangle"));
-    const CurvedMesh before = read_mesh(tangled).mesh, after = read_mesh(out).mesh;
-    for (Index node : before.topology().boundary_nodes())
-        EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node));
-    std::istringstream lines(read(trace));
-    int events = 0;
-    for (std::string line; std::getline(lines, line); ++events) EXPECT_TRUE(Json::accept(line));
-    EXPECT_GT(events, 100);
-    // A beta that leaves elements tangled is done, but not valid.
-    const std::string part = CURVEWRIGHT_TEST_DATA "/oracle/mech_ch4.msh";
-    EXPECT_EQ(cli({"untangle", part, "-o", out, "--beta", "1e-6", "--max-passes", "1"}).status, 3);
-}
-
 TEST_F(CommandLine, ElevateKeepsCornersAndGroups) {
     const std::string out = folder / "p5.msh";
     ASSERT_EQ(cli({"elevate", annulus, "--order", "5", "-o", out}).status, 0);

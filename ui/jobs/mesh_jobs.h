@@ -7,12 +7,15 @@
 #include <QString>
 
 #include "core/io/mesh_io.h"
+#include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/job_runner.h"
 
 namespace curvewright {
+
+enum class UntangleMethod { guaranteed, signed_angles };
 
 /// What to open.
 struct OpenRequest {
@@ -45,6 +48,8 @@ class MeshJobs : public QObject {
     /// Moves the boundary as the loaded deformation says, relative to the mesh as it is; the interior follows: at once,
     /// or in increments, up to the last state without tangled elements. Fails if no increment goes without them.
     bool warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments = {});
+    /// Moves interior nodes until no element is tangled, by the method that the options belong to.
+    bool untangle(const GuaranteedOptions& options);
     bool untangle(const SignedAngleOptions& options);
     /// Numbers every element the other way round.
     bool flip();
@@ -55,7 +60,7 @@ class MeshJobs : public QObject {
     /// Why the operation cannot run on the present state, as a sentence; empty if it can.
     QString why_not_deform() const;
     QString why_not_warp() const;
-    QString why_not_untangle() const;
+    QString why_not_untangle(UntangleMethod method) const;
 
   signals:
     /// What a finished operation has to say, one line: "Moved 3,232 interior nodes, iterative solver, 41 iterations."

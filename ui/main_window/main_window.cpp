@@ -158,6 +158,8 @@ void MainWindow::connect_document() {
 }
 
 void MainWindow::connect_panels() {
+    for (OperationPanel* panel : std::initializer_list<OperationPanel*>{deform_panel_, warp_panel_, untangle_panel_})
+        connect(panel, &OperationPanel::refreshed, this, &MainWindow::update_commands);
     connect(start_page_, &StartPage::open_requested, this, &MainWindow::ask_open);
     connect(start_page_, &StartPage::file_chosen, this, [this](const QString& path) { open_file(path); });
     connect(start_page_, &StartPage::sample_chosen, this, &MainWindow::open_sample);

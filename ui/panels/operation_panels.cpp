@@ -123,6 +123,7 @@ void OperationPanel::refresh() {
     button_->setEnabled(reason.isEmpty() && !jobs_.runner().is_running());
     reason_->setText(reason);
     reason_->setVisible(!reason.isEmpty());
+    emit refreshed();
 }
 
 DeformPanel::DeformPanel(MeshJobs& jobs, QWidget* parent)
@@ -347,45 +348,92 @@ QString LogSpinBox::textFromValue(double value) const {
 
 UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Untangle"), QStringLiteral("untangle_button"), parent) {
-    const SignedAngleOptions defaults;
-    method_ = new QComboBox;
-    method_->setObjectName(QStringLiteral("method"));
-    method_->addItem(tr("Signed angles"));
-    method_->setToolTip(tr("For 2D meshes of triangles of order 2 and 3"));
+    make_fields();
+    make_layout(this)->addLayout(form_);
+    finish_layout();
+}
+
+void UntanglePanel::make_fields() {
+    const GuaranteedOptions guaranteed;
+    const SignedAngleOptions signed_angles;
+    method_ =
+        make_choice("method", tr("How interior nodes move until no element is tangled; the boundary stays."),
+                    {{tr("Guaranteed"), int(UntangleMethod::guaranteed),
+                      tr("triangles and tetrahedra of any order. Goes on until every element is proved valid.")},
+                     {tr("Signed angles"), int(UntangleMethod::signed_angles),
+                      tr("triangles of order 2 and 3, edge by edge. Corners stay; not every mesh becomes valid.")}});
+    improves_ = new QCheckBox(tr("Improve the worst elements afterwards"));
+    improves_->setObjectName(QStringLiteral("improves"));
+    improves_->setChecked(guaranteed.improves);
+    improves_->setToolTip(
+        tr("Raises the least scaled Jacobian once all elements are valid; takes longer.\n"
+           "Otherwise elements may stay close to tangled."));
+    target_ = make_number("target", 0.05, 1.0, 0.05, 2, guaranteed.target);
+    target_->setToolTip(
+        tr("Elements below this scaled Jacobian are improved, together with those around them.\n"
+           "1: straight-sided. Lower: fewer nodes move and it ends sooner."));
     beta_ = new LogSpinBox;
     beta_->setObjectName(QStringLiteral("beta"));
     beta_->setDecimals(7);
     beta_->setRange(1e-5, 1.0);
     beta_->setLocale(QLocale::c());
-    beta_->setValue(defaults.beta);
+    beta_->setValue(signed_angles.beta);
     beta_->setToolTip(
         tr("Weight of the angles against the displacement. It depends on the unit of length: thin, "
            "stretched layers want small values."));
     passes_ = new QSpinBox;
     passes_->setObjectName(QStringLiteral("max_passes"));
     passes_->setRange(1, 1000);
-    passes_->setValue(defaults.max_passes);
+    passes_->setValue(signed_angles.max_passes);
     passes_->setToolTip(tr("Every pass visits all interior edges once"));
     reject_ = new QCheckBox(tr("Stop when a pass makes things worse"));
     reject_->setObjectName(QStringLiteral("reject_worse_pass"));
     reject_->setChecked(true);
     reject_->setToolTip(tr("Takes back a pass that leaves more tangled elements or a lower minimum"));
 
-    auto* form = make_form();
-    form->addRow(tr("Method"), method_);
-    form->addRow(tr("Weight β"), beta_);
-    form->addRow(tr("Passes at most"), passes_);
-    QVBoxLayout* layout = make_layout(this);
-    layout->addLayout(form);
-    layout->addWidget(reject_);
-    finish_layout();
+    form_ = make_form();
+    form_->addRow(tr("Method"), method_);
+    form_->addRow(improves_);
+    form_->addRow(tr("Target"), target_);
+    form_->addRow(tr("Weight β"), beta_);
+    form_->addRow(tr("Passes at most"), passes_);
+    form_->addRow(reject_);
+    align_labels(form_);
+    connect(improves_, &QCheckBox::toggled, target_, &QWidget::setEnabled);
+    connect(method_, &QComboBox::currentIndexChanged, this, [this] {
+        show_fields();
+        refresh();
+    });
+    show_fields();
+}
+
+void UntanglePanel::show_fields() {
+    const bool is_guaranteed = chosen<UntangleMethod>(method_) == UntangleMethod::guaranteed;
+    for (QWidget* field : std::initializer_list<QWidget*>{improves_, target_})
+        form_->setRowVisible(field, is_guaranteed);
+    for (QWidget* field : std::initializer_list<QWidget*>{beta_, passes_, reject_})
+        form_->setRowVisible(field, !is_guaranteed);
 }
 
 void UntanglePanel::run() {
-    jobs_.untangle(options());
+    if (chosen<UntangleMethod>(method_) == UntangleMethod::guaranteed)
+        jobs_.untangle(guaranteed_options());
+    else
+        jobs_.untangle(signed_angle_options());
 }
 
-SignedAngleOptions UntanglePanel::options() const {
+QString UntanglePanel::why_not() const {
+    return jobs_.why_not_untangle(chosen<UntangleMethod>(method_));
+}
+
+GuaranteedOptions UntanglePanel::guaranteed_options() const {
+    GuaranteedOptions options;
+    options.improves = improves_->isChecked();
+    options.target = target_->value();
+    return options;
+}
+
+SignedAngleOptions UntanglePanel::signed_angle_options() const {
     SignedAngleOptions options;
     options.beta = beta_->value();
     options.max_passes = passes_->value();
@@ -394,6 +442,7 @@ SignedAngleOptions UntanglePanel::options() const {
 }
 
 void UntanglePanel::set_beta(double beta) {
+    method_->setCurrentIndex(method_->findData(int(UntangleMethod::signed_angles)));
     beta_->setValue(beta);
 }
 

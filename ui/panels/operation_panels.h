@@ -27,6 +27,10 @@ class OperationPanel : public QWidget {
     /// Why it cannot run now; empty if it can.
     virtual QString why_not() const = 0;
 
+  signals:
+    /// What it would run, or whether it can, may have changed.
+    void refreshed();
+
   protected:
     /// Adds the button and the line at the end of the panel's layout; follows document and jobs from then on.
     void finish_layout();
@@ -95,22 +99,30 @@ class LogSpinBox : public QDoubleSpinBox {
     QString textFromValue(double value) const override;
 };
 
-/// Signed angles and their parameters.
+/// The methods of untangling and their parameters.
 class UntanglePanel : public OperationPanel {
     Q_OBJECT
 
   public:
     explicit UntanglePanel(MeshJobs& jobs, QWidget* parent = nullptr);
     void run() override;
-    QString why_not() const override { return jobs_.why_not_untangle(); }
-    SignedAngleOptions options() const;
+    QString why_not() const override;
+    GuaranteedOptions guaranteed_options() const;
+    SignedAngleOptions signed_angle_options() const;
+    /// Chooses signed angles with this weight.
     void set_beta(double beta);
 
   private:
+    void make_fields();
+    /// Only what belongs to the method chosen.
+    void show_fields();
+
     QComboBox* method_ = nullptr;
+    QCheckBox *improves_ = nullptr, *reject_ = nullptr;
+    QDoubleSpinBox* target_ = nullptr;
     LogSpinBox* beta_ = nullptr;
     QSpinBox* passes_ = nullptr;
-    QCheckBox* reject_ = nullptr;
+    QFormLayout* form_ = nullptr;
 };
 
 }  // namespace curvewright

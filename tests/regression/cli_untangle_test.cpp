@@ -1,0 +1,199 @@
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "core/io/mesh_io.h"
+#include "core/quality/quality.h"
+#include "core/untangle/guaranteed.h"
+#include "tests/regression/command_line.h"
+#include "tests/support/mesh_factory.h"
+
+namespace curvewright {
+namespace {
+
+using namespace testing;
+using Json = nlohmann::json;
+
+void expect_same_boundary(const std::string& before_file, const std::string& after_file) {
+    const CurvedMesh before = read_mesh(before_file).mesh, after = read_mesh(after_file).mesh;
+    for (Index node : before.topology().boundary_nodes())
+        EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node)) << node;
+}
+
+TEST_F(CommandLine, UntangleIsGuaranteedUnlessToldOtherwise) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
+    ProcessResult result = cli({"untangle", tangled, "-o", out, "--json", "--trace", trace});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    Json json = Json::parse(result.output);
+    EXPECT_EQ(json["method"], "guaranteed");
+    EXPECT_GE(json["rounds"].get<int>(), 0);
+    EXPECT_EQ(json["stopped"], "converged");
+    EXPECT_TRUE(json["unmended"].is_array() && json["unmended"].empty());
+    EXPECT_FALSE(json.contains("beta") || json.contains("passes"));
+    EXPECT_EQ(json["before"]["scaled_jacobian"]["invalid"], 2);
+    EXPECT_LT(json["before"]["shape"]["min"].get<double>(), 0.0);
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 30);
+    EXPECT_GT(json["scaled_jacobian"]["min"].get<double>(), 0.9);
+    EXPECT_GT(json["shape"]["min"].get<double>(), 0.5);
+    EXPECT_GT(json["shape"]["mean"].get<double>(), json["shape"]["min"].get<double>());
+    for (const char* phase : {"read", "certify", "untangle", "improve", "write", "total"})
+        EXPECT_GE(json["timings"][phase].get<double>(), 0.0) << phase;
+    expect_same_boundary(tangled, out);
+    EXPECT_EQ(read_mesh(out).mesh.coordinates(), untangle_guaranteed(read_mesh(tangled).mesh).coordinates);
+    std::istringstream lines(read(trace));
+    int events = 0;
+    for (std::string line; std::getline(lines, line); ++events) EXPECT_TRUE(Json::accept(line)) << line;
+    EXPECT_GT(events, 2);
+
+    const std::string named = folder / "named.msh";
+    result = cli({"untangle", tangled, "-o", named, "--method", "guaranteed"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(read(named), read(out));
+    EXPECT_NE(result.output.find("guaranteed method: "), std::string::npos) << result.output;
+}
+
+TEST_F(CommandLine, UntangleStopsWhereItIsTold) {
+    make_tangled();
+    const std::string out = folder / "valid.msh";
+    const auto least = [&](const std::vector<std::string>& options) {
+        std::vector<std::string> arguments{"untangle", tangled, "-o", out, "--json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProcessResult result = cli(arguments);
+        EXPECT_EQ(result.status, 0) << result.errors;
+        expect_same_boundary(tangled, out);
+        return Json::parse(result.output)["scaled_jacobian"]["min"].get<double>();
+    };
+    const double valid_only = least({"--valid-only"});
+    EXPECT_GT(valid_only, 0.0);
+    EXPECT_LT(valid_only, 0.9);
+    GuaranteedOptions options;
+    options.improves = false;
+    EXPECT_EQ(read_mesh(out).mesh.coordinates(), untangle_guaranteed(read_mesh(tangled).mesh, options).coordinates);
+    // Nothing is below a target that is reached already.
+    EXPECT_EQ(least({"--target", "1e-6"}), valid_only);
+    EXPECT_GT(least({"--target", "1"}), valid_only);
+
+    for (const char* target : {"0", "-0.5", "1.1", "nan", "inf", "1e400", "much", ""}) {
+        const ProcessResult result = cli({"untangle", tangled, "-o", folder / "none.msh", "--target", target});
+        EXPECT_EQ(result.status, 2) << target;
+        EXPECT_NE(result.errors.find("--target"), std::string::npos) << result.errors;
+    }
+    EXPECT_FALSE(exists(folder / "none.msh"));
+}
+
+TEST_F(CommandLine, UntangleWithBetaGoesBySignedAngles) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", named = folder / "named.msh";
+    const ProcessResult result = cli({"untangle", tangled, "-o", out, "--beta", "0.7", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["method"], "signed-angle");
+    EXPECT_EQ(json["beta"], 0.7);
+    EXPECT_GT(json["passes"].get<int>(), 0);
+    EXPECT_FALSE(json.contains("unmended"));
+    EXPECT_EQ(cli({"untangle", tangled, "-o", named, "--method", "signed-angle", "--beta", "0.7"}).status, 0);
+    EXPECT_EQ(read(named), read(out));
+}
+
+TEST_F(CommandLine, UntangleKeepsTheBoundaryAndWritesATrace) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
+    const ProcessResult result =
+        cli({"untangle", tangled, "-o", out, "--method", "signed-angle", "--beta", "0.7", "--json", "--trace", trace});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["before"]["scaled_jacobian"]["invalid"], 2);
+    EXPECT_EQ(json["scaled_jacobian"]["invalid"], 0);
+    EXPECT_NEAR(json["scaled_jacobian"]["min"].get<double>(), 0.456, 5e-3);
+    EXPECT_GT(json["shape"]["min"].get<double>(), 0.5);
+    EXPECT_TRUE(json["timings"].contains("untangle"));
+    const CurvedMesh before = read_mesh(tangled).mesh, after = read_mesh(out).mesh;
+    for (Index node : before.topology().boundary_nodes())
+        EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node));
+    std::istringstream lines(read(trace));
+    int events = 0;
+    for (std::string line; std::getline(lines, line); ++events) EXPECT_TRUE(Json::accept(line));
+    EXPECT_GT(events, 100);
+    // A beta that leaves elements tangled is done, but not valid.
+    const std::string part = CURVEWRIGHT_TEST_DATA "/oracle/mech_ch4.msh";
+    EXPECT_EQ(cli({"untangle", part, "-o", out, "--beta", "1e-6", "--max-passes", "1"}).status, 3);
+}
+
+TEST_F(CommandLine, UntangleMendsTetrahedra) {
+    const std::string mesh = folder / "cube.msh", deformation = folder / "dent.json", out = folder / "valid.msh";
+    write_mesh(mesh, cube_mesh(3, 2));
+    write(deformation, R"json({"operations": [{"group": "z0", "type": "expression",
+        "z": "z + 0.15 * (sin(3 * pi * x) * sin(3 * pi * y))^2"}]})json");
+    ASSERT_EQ(cli({"deform", mesh, "--deformation", deformation, "-o", tangled}).status, 0);
+    ProcessResult result = cli({"untangle", tangled, "-o", out, "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    Json json = Json::parse(result.output);
+    EXPECT_EQ(json["mesh"]["dimension"], 3);
+    EXPECT_GT(json["before"]["scaled_jacobian"]["invalid"].get<int>(), 0);
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 162);
+    EXPECT_TRUE(json["unmended"].empty());
+    expect_same_boundary(tangled, out);
+
+    // The sphere of the sample alone moved: cubic tetrahedra.
+    ASSERT_EQ(cli({"deform", samples + "moving_sphere_small/moving_sphere_small.msh.gz", "--deformation",
+                   samples + "moving_sphere_small/deformation.json", "-o", tangled})
+                  .status,
+              0);
+    result = cli({"untangle", tangled, "-o", out, "--valid-only", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    json = Json::parse(result.output);
+    EXPECT_GT(json["before"]["scaled_jacobian"]["invalid"].get<int>(), 100);
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 2898);
+    EXPECT_GT(json["rounds"].get<int>(), 0);
+    expect_same_boundary(tangled, out);
+}
+
+TEST_F(CommandLine, UntangleListsWhatCannotBeMended) {
+    const std::string mesh = folder / "linear.msh", deformation = folder / "ends.json", out = folder / "out.msh";
+    // The bottom's ends pass the corners above them.
+    write_mesh(mesh, square_mesh(4, 1));
+    write(deformation, R"json({"operations": [{"group": "bottom", "type": "expression",
+        "y": "y + 0.3 * (2 * x - 1)^8"}]})json");
+    ASSERT_EQ(cli({"deform", mesh, "--deformation", deformation, "-o", tangled}).status, 0);
+    ProcessResult result = cli({"untangle", tangled, "-o", out, "--json"});
+    EXPECT_EQ(result.status, 3);
+    const Json json = Json::parse(result.output);
+    EXPECT_NE(json["stopped"], "converged");
+    const Json& unmended = json["unmended"];
+    ASSERT_GT(unmended.size(), 0u);
+    EXPECT_EQ(unmended.size(), json["scaled_jacobian"]["invalid"].get<std::size_t>());
+    for (const Json& element : unmended) {
+        EXPECT_GE(element["element"].get<int>(), 101);
+        EXPECT_FALSE(element["reason"].get<std::string>().empty());
+    }
+    EXPECT_TRUE(exists(out));
+    expect_same_boundary(tangled, out);
+    result = cli({"untangle", tangled, "-o", out});
+    EXPECT_EQ(result.status, 3);
+    const std::string line =
+        "element " + std::to_string(unmended[0]["element"].get<int>()) +
+        " cannot be mended with the boundary as it is: " + unmended[0]["reason"].get<std::string>();
+    EXPECT_NE(result.output.find(line), std::string::npos) << result.output;
+
+    // Of two triangles, the one below is turned over; nothing can move.
+    write_mesh(mesh, square_mesh(1, 1));
+    write(deformation, R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 1.2 * x"}]})json");
+    ASSERT_EQ(cli({"deform", mesh, "--deformation", deformation, "-o", tangled}).status, 0);
+    result = cli({"untangle", tangled, "-o", out, "--json"});
+    EXPECT_EQ(result.status, 3);
+    const Json two = Json::parse(result.output);
+    ASSERT_EQ(two["unmended"].size(), 1u);
+    EXPECT_EQ(two["unmended"][0]["element"], 105);  // after the four boundary lines
+    EXPECT_EQ(two["unmended"][0]["reason"], "all of its nodes lie on the boundary");
+}
+
+TEST_F(CommandLine, UntangleTellsWhichElementsItCannotTake) {
+    const std::string mesh = folder / "quads.msh";
+    write_mesh(mesh, quad_mesh(2, 2));
+    expect_bad_input({"untangle", mesh, "-o", folder / "out.msh"}, "quadrilateral");
+    EXPECT_FALSE(exists(folder / "out.msh"));
+}
+
+}  // namespace
+}  // namespace curvewright
