@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/mesh/node_elements.h"
 #include "core/optimize/lbfgs.h"
 #include "core/quality/jacobian_bounds.h"
 #include "core/quality/quality.h"
@@ -43,11 +44,15 @@ class Untangler {
   public:
     Untangler(const CurvedMesh& mesh, const GuaranteedOptions& options, UntangleObserver* observer,
               const TaskContext& context)
-        : mesh_(mesh), topology_(mesh.topology()), options_(options), observer_(observer), context_(context) {
+        : mesh_(mesh),
+          topology_(mesh.topology()),
+          options_(options),
+          observer_(observer),
+          context_(context),
+          node_elements_(elements_of_nodes(mesh.topology())) {
         const QualityReport report = assess_quality(mesh, quality_options_, context);
         quality_options_.orientation_sign = report.orientation_sign;
         qualities_ = report.elements;
-        collect_elements_of_nodes();
     }
 
     GuaranteedResult run() {
@@ -66,20 +71,6 @@ class Untangler {
     }
 
   private:
-    void collect_elements_of_nodes() {
-        offsets_.assign(static_cast<std::size_t>(topology_.node_count()) + 1, 0);
-        for (Index element = 0; element < topology_.element_count(); ++element)
-            for (const Index node : topology_.element_nodes(element)) ++offsets_[static_cast<std::size_t>(node) + 1];
-        for (std::size_t i = 1; i < offsets_.size(); ++i) offsets_[i] += offsets_[i - 1];
-        elements_of_nodes_.resize(offsets_.back());
-        std::vector<std::size_t> next(offsets_.begin(), offsets_.end() - 1);
-        for (Index element = 0; element < topology_.element_count(); ++element)
-            for (const Index node : topology_.element_nodes(element)) elements_of_nodes_[next[node]++] = element;
-    }
-    std::span<const Index> elements_of(Index node) const {
-        return std::span(elements_of_nodes_).subspan(offsets_[node], offsets_[node + 1] - offsets_[node]);
-    }
-
     /// The elements within some layers of the seeds, cut into patches that share no element, each with its free nodes.
     std::vector<FreePatch> make_patches(const std::vector<Index>& seeds, int layers) const {
         std::vector<int> patch_of(static_cast<std::size_t>(topology_.element_count()), -1);
@@ -89,7 +80,7 @@ class Untangler {
             std::vector<Index> next;
             for (const Index element : front)
                 for (const Index node : topology_.element_nodes(element))
-                    for (const Index other : elements_of(node))
+                    for (const Index other : node_elements_.of(node))
                         if (patch_of[other] < 0) {
                             patch_of[other] = 0;
                             next.push_back(other);
@@ -110,7 +101,7 @@ class Untangler {
                 stack.pop_back();
                 patch.elements.push_back(element);
                 for (const Index node : topology_.element_nodes(element))
-                    for (const Index other : elements_of(node))
+                    for (const Index other : node_elements_.of(node))
                         if (patch_of[other] == 0) {
                             patch_of[other] = number;
                             stack.push_back(other);
@@ -119,7 +110,7 @@ class Untangler {
             std::sort(patch.elements.begin(), patch.elements.end());
             for (const Index element : patch.elements)
                 for (const Index node : topology_.element_nodes(element)) {
-                    const auto around = elements_of(node);
+                    const auto around = node_elements_.of(node);
                     if (topology_.is_interior_node(node) &&
                         std::all_of(around.begin(), around.end(), [&](Index e) { return patch_of[e] == number; }))
                         patch.nodes.push_back(node);
@@ -218,7 +209,8 @@ class Untangler {
             for (const int count : rounds) result.rounds += count;
             end_pass(result.coordinates);
             seeds = tangled();
-            context_.report("Making elements valid", 1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
+            context_.report("Making elements valid",
+                            1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
         }
     }
 
@@ -361,8 +353,7 @@ class Untangler {
     const TaskContext& context_;
     QualityOptions quality_options_;
     std::vector<ElementQuality> qualities_;  ///< of the present state, per element
-    std::vector<std::size_t> offsets_;
-    std::vector<Index> elements_of_nodes_;
+    const NodeElements node_elements_;
     int pass_ = 0;
 };
 

@@ -11,6 +11,7 @@
 #include "core/base/parallel.h"
 #include "core/basis/lagrange.h"
 #include "core/basis/quadrature.h"
+#include "core/mesh/node_elements.h"
 
 namespace curvewright {
 namespace {

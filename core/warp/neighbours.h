@@ -11,7 +11,7 @@ namespace curvewright {
 
 /// Which nodes an interior node is tied to.
 enum class NeighbourKind {
-    all,         ///< all other nodes of its elements (thesis, 2.2)
+    all,  ///< all other nodes of its elements (thesis, 2.2)
     /// Those of them that are no vertices; fewer weights, for small motions. Needs order 2. Where two triangles form a
     /// larger one, the nodes of their common edge lie on the hull.
     high_order,
@@ -20,17 +20,6 @@ enum class NeighbourKind {
     edge_connected,
 };
 const char* to_string(NeighbourKind kind);
-
-/// The elements that contain each node, compressed by rows; ascending for a node.
-struct NodeElements {
-    std::vector<std::size_t> offsets;  ///< nodes + 1
-    std::vector<Index> elements;
-
-    std::span<const Index> of(Index node) const {
-        return std::span(elements).subspan(offsets[node], offsets[node + 1] - offsets[node]);
-    }
-};
-NodeElements elements_of_nodes(const MeshTopology& topology);
 
 /// Neighbours of the free nodes, one set per node.
 struct NeighbourSets {

@@ -11,6 +11,7 @@
 
 #include "core/base/error.h"
 #include "core/basis/reference_element.h"
+#include "core/mesh/node_elements.h"
 #include "core/warp/elasticity.h"
 #include "tests/support/mesh_factory.h"
 

@@ -10,6 +10,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/mesh/node_elements.h"
 #include "core/warp/weights.h"
 #include "tests/support/mesh_factory.h"
 
