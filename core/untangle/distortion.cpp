@@ -162,7 +162,6 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         std::shared_ptr<RowMatrix> own_gradients;
         Square<Dim> inverse_ideal = Square<Dim>::Identity();  ///< W^-1, in units of the patch's size
         std::size_t first = 0;                                ///< of its nodes in node_of_ and start_
-        double determinant_scale = 1.0;
     };
     struct Use {
         std::size_t element, position;

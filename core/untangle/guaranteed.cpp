@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -231,14 +230,7 @@ class Untangler {
             distortion.eps = std::sqrt(1e-6 + 0.04 * std::pow(std::min(0.0, least), 2));
             LbfgsOptions lbfgs;
             lbfgs.max_iterations = 10 + rounds;
-            minimize_lbfgs(
-                variables,
-                [&](const Eigen::VectorXd& v, Eigen::VectorXd& g) { return objective.evaluate(v, distortion, g); },
-                lbfgs,
-                [&](const Eigen::VectorXd&, double, int) {
-                    context_.check();
-                    return objective.least_determinant() <= margin;
-                });
+            minimize(objective, distortion, lbfgs, variables, [&] { return objective.least_determinant() <= margin; });
             objective.evaluate(variables, distortion, gradient);
             least = objective.least_determinant();
             const bool gains = least > best_least + 1e-3 * std::abs(best_least);
@@ -279,27 +271,33 @@ class Untangler {
         end_pass(result.coordinates);
     }
 
+    /// goes_on() is asked after every step.
+    template <class GoesOn>
+    void minimize(PatchObjective& objective, const DistortionOptions& distortion, const LbfgsOptions& lbfgs,
+                  Eigen::VectorXd& variables, const GoesOn& goes_on) const {
+        minimize_lbfgs(
+            variables,
+            [&](const Eigen::VectorXd& v, Eigen::VectorXd& g) { return objective.evaluate(v, distortion, g); }, lbfgs,
+            [&](const Eigen::VectorXd&, double, int) {
+                context_.check();
+                return goes_on();
+            });
+    }
+
     void improve_patch(const FreePatch& patch, Coordinates& x) {
         PatchObjective objective(topology_, x, mesh_.coordinates(), *quality_options_.orientation_sign, patch);
         Best best(*this, patch, x);
         Eigen::VectorXd variables = objective.variables(x);
         DistortionOptions distortion;
-        const auto minimize = [&](const LbfgsOptions& lbfgs) {
-            minimize_lbfgs(
-                variables,
-                [&](const Eigen::VectorXd& v, Eigen::VectorXd& g) { return objective.evaluate(v, distortion, g); },
-                lbfgs,
-                [&](const Eigen::VectorXd&, double, int) {
-                    context_.check();
-                    return true;
-                });
+        const auto advance = [&](const LbfgsOptions& lbfgs) {
+            minimize(objective, distortion, lbfgs, variables, [] { return true; });
             objective.store(variables, x);
             best.offer(patch, x, certify(patch.elements, x));
         };
         LbfgsOptions lbfgs;
         lbfgs.first_step = 1e-3;
         lbfgs.max_iterations = 50;
-        minimize(lbfgs);  // the energy alone: evens the patch out
+        advance(lbfgs);  // the energy alone: evens the patch out
         lbfgs.max_iterations = 200;
         lbfgs.relative_decrease = 3e-5;
         lbfgs.history = 10;
@@ -307,7 +305,7 @@ class Untangler {
         distortion.mean_weight = options_.mean_weight;
         for (const double sharpness : {20.0, 40.0, 80.0, 160.0, 320.0}) {
             distortion.sharpness = sharpness;
-            minimize(lbfgs);
+            advance(lbfgs);
         }
         best.take(*this, patch, x);
     }
