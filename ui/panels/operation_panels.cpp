@@ -215,7 +215,7 @@ void WarpPanel::make_fields() {
                       tr("the mesh is deformed like rubber. Best for large motions and bent shells; takes longer.")}});
     distance_power_ = make_number("distance_power", 0.0, 8.0, 0.5, 1, defaults.distance_power);
     distance_power_->setToolTip(tr("How much more near neighbours count than far ones.\n"
-                                   "0: all neighbours alike, as in the thesis.\n"
+                                   "0: the distance does not count.\n"
                                    "%1: the default; keeps small elements near the moving boundary in shape.")
                                     .arg(defaults.distance_power));
     steps_ = make_choice("steps", tr("Whether the boundary moves at once or in steps."),
