@@ -67,6 +67,14 @@ void add_square_boundary(Builder& builder, int n) {
     }
 }
 
+/// The (n + 1)² points of a grid on the unit square, row by row from below.
+Coordinates square_points(int n) {
+    Coordinates x((n + 1) * (n + 1), 3);
+    for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i) x.row(j * (n + 1) + i) << double(i) / n, double(j) / n, 0.0;
+    return x;
+}
+
 }  // namespace
 
 CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x) {
@@ -85,9 +93,6 @@ CurvedMesh square_mesh(int n, int order) {
     add_square_boundary(builder, n);
     builder.add_group(2, 1, "domain");
     const auto id = [n](int i, int j) { return j * (n + 1) + i; };
-    Coordinates x((n + 1) * (n + 1), 3);
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) x.row(id(i, j)) << double(i) / n, double(j) / n, 0.0;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i) {
             const Index a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
@@ -100,7 +105,7 @@ CurvedMesh square_mesh(int n, int order) {
                 builder.add_cell(Shape::triangle, 1, {b, c, d});
             }
         }
-    return elevate(builder.finish(x), order);
+    return elevate(builder.finish(square_points(n)), order);
 }
 
 CurvedMesh cube_mesh(int n, int order) {
@@ -153,13 +158,10 @@ CurvedMesh quad_mesh(int n, int order) {
     add_square_boundary(builder, n);
     builder.add_group(2, 1, "domain");
     const auto id = [n](int i, int j) { return j * (n + 1) + i; };
-    Coordinates x((n + 1) * (n + 1), 3);
-    for (int j = 0; j <= n; ++j)
-        for (int i = 0; i <= n; ++i) x.row(id(i, j)) << double(i) / n, double(j) / n, 0.0;
     for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
             builder.add_cell(Shape::quadrilateral, 1, {id(i, j), id(i + 1, j), id(i + 1, j + 1), id(i, j + 1)});
-    return elevate(builder.finish(x), order);
+    return elevate(builder.finish(square_points(n)), order);
 }
 
 CurvedMesh hex_mesh(int n, int order) {
