@@ -10,14 +10,18 @@ namespace curvewright {
 
 /// Why an untangling ended.
 enum class StopReason {
-    converged,    ///< the nodes moved less than the tolerance in a pass
+    converged,    ///< the nodes moved less than the tolerance in a pass, or nothing is gained any more
+    untangled,    ///< every element is proved valid, which is all that the method is after
     pass_limit,   ///< max_passes were made
     no_progress,  ///< the last pass lowered the certified quality and was taken back
+    cancelled,    ///< stopped by the user; the best state so far was kept
 };
 const char* to_string(StopReason reason);
 
 /// The steps of an untangling, in the order in which they happen. Positions are (x, y) or (x, y, z) in mesh units.
 namespace untangle_event {
+
+using Position = std::array<double, 3>;
 
 struct Started {
     const CurvedMesh* mesh = nullptr;  ///< valid during the call
@@ -25,13 +29,12 @@ struct Started {
 struct PassBegan {
     int pass = 0;  ///< from 1
 };
-/// One node (signed angles) is about to be optimised.
+/// Some nodes are about to be moved together: a node or the nodes of an edge (angles), or a patch's free nodes.
 struct PatchBegan {
-    Index node = 0;
-    std::vector<Index> elements;
-    std::array<double, 3> position{};
+    std::vector<Index> nodes, elements;
+    std::vector<Position> positions;  ///< of the nodes
 };
-/// One iteration of the Nelder-Mead method.
+/// One iteration of the Nelder-Mead method (signed angles).
 struct SimplexStep {
     int iteration = 0;
     std::array<std::array<double, 2>, 3> simplex{};  ///< best vertex first
@@ -40,17 +43,45 @@ struct SimplexStep {
     double angle_term = 0.0;                         ///< beta sum exp(-10 alpha_i) at the best vertex
     std::array<double, 4> angles{};                  ///< signed, radians, at the best vertex
 };
+/// One iteration of the BFGS method (unsigned angles); iteration 0 is the start.
+struct BfgsStep {
+    int iteration = 0;
+    std::vector<Position> positions;  ///< of the edge's nodes
+    double objective = 0.0;           ///< sum of the angles
+    double gradient_norm = 0.0;       ///< radians per unit of length
+    double step = 0.0;                ///< fraction of the quasi-Newton step that was taken; 0 at the start
+    std::array<double, 4> angles{};   ///< unsigned, radians
+};
+/// One iteration of the L-BFGS method (guaranteed).
+struct EnergyStep {
+    int round = 0;      ///< minimisations of this patch so far, from 1
+    int iteration = 0;  ///< within the round, from 1
+    double objective = 0.0;
+    double eps = 0.0;                 ///< of the foldover energy
+    double sharpness = 0.0;           ///< of the soft minima; 0 while elements are being made valid
+    double least_determinant = 0.0;   ///< least D = det J W^-1 over the patch's samples
+    std::vector<Position> positions;  ///< of the patch's free nodes
+};
+/// The elements of a patch were judged (guaranteed).
+struct PatchCertified {
+    int round = 0;
+    Index not_valid = 0;                  ///< elements not proved valid
+    double min_scaled_jacobian = 0.0;     ///< over the patch
+    Index worst_element = 0;              ///< where it is attained
+    std::array<double, 3> worst_point{};  ///< its reference coordinates
+};
 struct PatchEnded {
-    Index node = 0;
+    std::vector<Index> nodes;
+    std::vector<Position> positions;
     int iterations = 0;
+    double beta = 0.0;  ///< the weight that was used (signed angles), else 0
     double objective_before = 0.0, objective_after = 0.0;
-    std::array<double, 3> position{};
     double min_scaled_jacobian_before = 0.0, min_scaled_jacobian_after = 0.0;  ///< over the patch, certified
 };
 /// Face nodes were moved (signed angles, second pass).
 struct FaceNodesMoved {
     std::vector<Index> nodes;
-    std::vector<std::array<double, 3>> positions;
+    std::vector<Position> positions;
 };
 struct PassEnded {
     int pass = 0;
@@ -67,7 +98,8 @@ struct Finished {
 }  // namespace untangle_event
 
 using UntangleEvent = std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
-                                   untangle_event::SimplexStep, untangle_event::PatchEnded,
+                                   untangle_event::SimplexStep, untangle_event::BfgsStep, untangle_event::EnergyStep,
+                                   untangle_event::PatchCertified, untangle_event::PatchEnded,
                                    untangle_event::FaceNodesMoved, untangle_event::PassEnded, untangle_event::Finished>;
 
 /// Is told of every step, on the thread that untangles. The method builds events only if an observer is there.

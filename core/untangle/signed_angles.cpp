@@ -29,7 +29,7 @@ void check(const CurvedMesh& mesh, const SignedAngleOptions& options) {
         throw InvalidInput(fmt::format("The number of passes is {}; it must be at least 1.", options.max_passes));
 }
 
-std::array<double, 3> position_of(const Coordinates& x, Index node) {
+event::Position position_of(const Coordinates& x, Index node) {
     return {x(node, 0), x(node, 1), x(node, 2)};
 }
 
@@ -133,10 +133,11 @@ class SignedAngleUntangler {
 
         event::PatchEnded ended;
         if (observer_) {
-            tell(event::PatchBegan{edge_node.node,
+            tell(event::PatchBegan{{edge_node.node},
                                    {edge_node.triangles.begin(), edge_node.triangles.end()},
-                                   position_of(x_, edge_node.node)});
-            ended.node = edge_node.node;
+                                   {position_of(x_, edge_node.node)}});
+            ended.nodes = {edge_node.node};
+            ended.beta = beta;
             ended.objective_before = objective(start);
             ended.min_scaled_jacobian_before = patch_minimum(edge_node);
         }
@@ -153,7 +154,7 @@ class SignedAngleUntangler {
         if (observer_) {
             ended.iterations = minimum.iterations;
             ended.objective_after = minimum.value;
-            ended.position = position_of(x_, edge_node.node);
+            ended.positions = {position_of(x_, edge_node.node)};
             ended.min_scaled_jacobian_after = patch_minimum(edge_node);
             tell(std::move(ended));
         }

@@ -14,16 +14,26 @@ namespace event = untangle_event;
 struct Describe {
     const MeshTopology& topology;
 
-    Json node(Index index) const { return topology.node_tag(index).value; }
+    Json nodes(const std::vector<Index>& indices) const {
+        Json tags = Json::array();
+        for (const Index index : indices) tags.push_back(topology.node_tag(index).value);
+        return tags;
+    }
+    Json elements(const std::vector<Index>& indices) const {
+        Json tags = Json::array();
+        for (const Index index : indices) tags.push_back(topology.element_tag(index).value);
+        return tags;
+    }
 
     Json operator()(const event::Started&) const {
         return {{"event", "started"}, {"elements", topology.element_count()}, {"nodes", topology.node_count()}};
     }
     Json operator()(const event::PassBegan& e) const { return {{"event", "pass_began"}, {"pass", e.pass}}; }
     Json operator()(const event::PatchBegan& e) const {
-        Json elements = Json::array();
-        for (Index element : e.elements) elements.push_back(topology.element_tag(element).value);
-        return {{"event", "patch_began"}, {"node", node(e.node)}, {"elements", elements}, {"position", e.position}};
+        return {{"event", "patch_began"},
+                {"nodes", nodes(e.nodes)},
+                {"elements", elements(e.elements)},
+                {"positions", e.positions}};
     }
     Json operator()(const event::SimplexStep& e) const {
         return {{"event", "simplex_step"},
@@ -34,20 +44,43 @@ struct Describe {
                 {"angle_term", e.angle_term},
                 {"angles", e.angles}};
     }
+    Json operator()(const event::BfgsStep& e) const {
+        return {{"event", "bfgs_step"},     {"iteration", e.iteration},         {"positions", e.positions},
+                {"objective", e.objective}, {"gradient_norm", e.gradient_norm}, {"step", e.step},
+                {"angles", e.angles}};
+    }
+    Json operator()(const event::EnergyStep& e) const {
+        return {{"event", "energy_step"},
+                {"round", e.round},
+                {"iteration", e.iteration},
+                {"objective", e.objective},
+                {"eps", e.eps},
+                {"sharpness", e.sharpness},
+                {"least_determinant", e.least_determinant},
+                {"positions", e.positions}};
+    }
+    Json operator()(const event::PatchCertified& e) const {
+        return {{"event", "patch_certified"},
+                {"round", e.round},
+                {"not_valid", e.not_valid},
+                {"min_scaled_jacobian", e.min_scaled_jacobian},
+                {"worst_element", topology.element_tag(e.worst_element).value},
+                {"worst_point", e.worst_point}};
+    }
     Json operator()(const event::PatchEnded& e) const {
-        return {{"event", "patch_ended"},
-                {"node", node(e.node)},
-                {"iterations", e.iterations},
-                {"objective_before", e.objective_before},
-                {"objective_after", e.objective_after},
-                {"position", e.position},
-                {"min_scaled_jacobian_before", e.min_scaled_jacobian_before},
-                {"min_scaled_jacobian_after", e.min_scaled_jacobian_after}};
+        Json json = {{"event", "patch_ended"},
+                     {"nodes", nodes(e.nodes)},
+                     {"positions", e.positions},
+                     {"iterations", e.iterations},
+                     {"objective_before", e.objective_before},
+                     {"objective_after", e.objective_after},
+                     {"min_scaled_jacobian_before", e.min_scaled_jacobian_before},
+                     {"min_scaled_jacobian_after", e.min_scaled_jacobian_after}};
+        if (e.beta > 0.0) json["beta"] = e.beta;
+        return json;
     }
     Json operator()(const event::FaceNodesMoved& e) const {
-        Json nodes = Json::array();
-        for (Index index : e.nodes) nodes.push_back(node(index));
-        return {{"event", "face_nodes_moved"}, {"nodes", nodes}, {"positions", e.positions}};
+        return {{"event", "face_nodes_moved"}, {"nodes", nodes(e.nodes)}, {"positions", e.positions}};
     }
     Json operator()(const event::PassEnded& e) const {
         return {{"event", "pass_ended"},

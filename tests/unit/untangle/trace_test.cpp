@@ -29,10 +29,10 @@ TEST(TraceWriter, EveryLineIsAnEventWithTagsOfTheFile) {
     for (const auto& event : events) {
         if (event["event"] != "patch_ended") continue;
         ++patches;
-        const auto node = mesh.topology().find_node({event["node"].get<std::int64_t>()});
+        const auto node = mesh.topology().find_node({event["nodes"].at(0).get<std::int64_t>()});
         ASSERT_TRUE(node);
         EXPECT_TRUE(mesh.topology().is_interior_node(*node));
-        EXPECT_EQ(event["position"].size(), 3u);
+        EXPECT_EQ(event["positions"].at(0).size(), 3u);
     }
     EXPECT_EQ(patches, result.passes * (16 - 8) * 2);
 }
