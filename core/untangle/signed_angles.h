@@ -3,6 +3,7 @@
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/untangle/observer.h"
+#include "core/untangle/untangle_result.h"
 
 namespace curvewright {
 
@@ -21,12 +22,6 @@ struct SignedAngleOptions {
     /// Take back a pass that leaves more invalid elements, or a lower certified minimum, than the state before it, and
     /// stop there. Off = the thesis's method to the letter.
     bool reject_worse_pass = false;
-};
-
-struct UntangleResult {
-    Coordinates coordinates;
-    int passes = 0;
-    StopReason reason = StopReason::converged;
 };
 
 /// Untangles curved triangles of order 2 and 3 by signed angles (thesis, chapter 4, Alg. 6): pass 1 moves every

@@ -153,6 +153,17 @@ CurvedMesh cube_mesh(int n, int order) {
     return elevate(builder.finish(x), order);
 }
 
+CurvedMesh bulged_square_mesh(int n, int order, double height) {
+    const CurvedMesh mesh = square_mesh(n, order);
+    Coordinates x = mesh.coordinates();
+    const std::vector<Index> bottom = mesh.topology().find_group_nodes("bottom").value();
+    for (const Index node : bottom) {
+        const double t = x(node, 0) * n - std::floor(x(node, 0) * n);
+        x(node, 1) += height * 4.0 * t * (1.0 - t);
+    }
+    return mesh.with_coordinates(std::move(x));
+}
+
 CurvedMesh quad_mesh(int n, int order) {
     Builder builder;
     add_square_boundary(builder, n);

@@ -14,6 +14,10 @@ CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x);
 /// groups "bottom", "right", "top", "left", triangles in "domain". Node and element tags start at 11 and 101.
 CurvedMesh square_mesh(int n, int order);
 
+/// The same mesh with the edges of its bottom side bent into it by `height`; their corners stay. 2D, of order 2 and up.
+/// Enough height (some 0.1 for n = 3) tangles the triangles there.
+CurvedMesh bulged_square_mesh(int n, int order, double height);
+
 /// The unit cube as n × n × n cubes of six tetrahedra each; boundary triangles in the groups "x0", "x1", "y0", …, "z1".
 CurvedMesh cube_mesh(int n, int order);
 
