@@ -10,15 +10,6 @@
 
 namespace curvewright {
 
-Standing::Standing(const std::vector<ElementQuality>& qualities) {
-    for (std::size_t i = 0; i < qualities.size(); ++i) {
-        not_valid += is_valid(qualities[i]) ? 0 : 1;
-        if (qualities[i].scaled_jacobian >= least) continue;
-        least = qualities[i].scaled_jacobian;
-        worst = i;
-    }
-}
-
 std::vector<ElementQuality> certify_elements(const MeshTopology& topology, const std::vector<Index>& elements,
                                              const Coordinates& x, const QualityOptions& options,
                                              const TaskContext& context) {

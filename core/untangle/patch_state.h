@@ -1,29 +1,13 @@
 #pragma once
 
-#include <limits>
 #include <vector>
 
 #include "core/quality/quality.h"
 #include "core/untangle/boundary_shape.h"
 #include "core/untangle/distortion.h"
+#include "core/untangle/standing.h"
 
 namespace curvewright {
-
-inline bool is_valid(const ElementQuality& quality) {
-    return quality.validity == Validity::valid;
-}
-
-/// How good a set of elements is: fewer that are not valid first, then a higher least scaled Jacobian.
-struct Standing {
-    Index not_valid = 0;
-    double least = std::numeric_limits<double>::infinity();
-    std::size_t worst = 0;  ///< position of the element with the least scaled Jacobian
-
-    explicit Standing(const std::vector<ElementQuality>& qualities);
-    bool is_better_than(const Standing& other) const {
-        return not_valid != other.not_valid ? not_valid < other.not_valid : least > other.least;
-    }
-};
 
 /// Certified qualities of some elements at the given positions (nodes × 3), with the options' orientation.
 std::vector<ElementQuality> certify_elements(const MeshTopology& topology, const std::vector<Index>& elements,

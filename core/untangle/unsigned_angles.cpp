@@ -11,6 +11,7 @@
 #include "core/quality/jacobian_bounds.h"
 #include "core/quality/quality.h"
 #include "core/untangle/edge_angles.h"
+#include "core/untangle/face_nodes.h"
 #include "core/untangle/standing.h"
 
 namespace curvewright {
@@ -38,17 +39,6 @@ void check(const CurvedMesh& mesh, const UnsignedAngleOptions& options) {
                                        options.difference_step));
 }
 
-/// Moves the face nodes of a triangle to the mean of its high-order edge nodes.
-void place_face_nodes(const MeshTopology& topology, Index triangle, Coordinates& x) {
-    const ReferenceElement& element = reference_element(topology.element_type(triangle));
-    const auto nodes = topology.element_nodes(triangle);
-    Eigen::RowVector2d mean = Eigen::RowVector2d::Zero();
-    int count = 0;
-    for (const SubElement& edge : element.edges)
-        for (std::size_t i = 2; i < edge.nodes.size(); ++i, ++count) mean += x.row(nodes[edge.nodes[i]]).head<2>();
-    for (const int local : element.interior_nodes) x.row(nodes[local]).head<2>() = mean / count;
-}
-
 /// Which moves of an edge are kept: those that raise its triangles' least scaled Jacobian, or the best one in any case.
 enum class Moves { gains, all };
 
@@ -67,6 +57,7 @@ class UnsignedAngleUntangler {
           context_(context),
           bounds_(*topology_.uniform_type()),
           edges_(find_interior_edges(topology_)),
+          placements_(placements()),
           x_(mesh.coordinates()) {
         QualityReport report = assess_quality(mesh, quality_options_, context);
         quality_options_.orientation_sign = report.orientation_sign;
@@ -122,7 +113,6 @@ class UnsignedAngleUntangler {
         tell(std::move(ended));
     }
 
-    static bool is_valid(const ElementQuality& quality) { return quality.validity == Validity::valid; }
     bool is_untangled() const { return std::all_of(qualities_.begin(), qualities_.end(), is_valid); }
 
     double patch_minimum(const InteriorEdge& edge) const {
@@ -213,11 +203,19 @@ class UnsignedAngleUntangler {
         }
     }
 
-    void place(const InteriorEdge& edge, const Eigen::VectorXd& variables) {
+    using Placement = void (*)(const MeshTopology&, Index, Coordinates&);
+    /// The ways to place face nodes that are tried; null: they stay.
+    std::vector<Placement> placements() const {
+        if (!options_.moves_face_nodes || topology_.order() < 3) return {nullptr};
+        // One face node: either way may be the better one.
+        if (topology_.order() == 3) return {place_face_nodes_at_mean, blend_face_nodes};
+        return {blend_face_nodes};
+    }
+    void place(const InteriorEdge& edge, const Eigen::VectorXd& variables, Placement place_face_nodes) {
         for (std::size_t i = 0; i < edge.nodes.size(); ++i)
             x_.row(edge.nodes[i]).head<2>() = variables.segment<2>(static_cast<Eigen::Index>(2 * i));
         for (const Index triangle : edge.triangles) {
-            if (options_.moves_face_nodes) place_face_nodes(topology_, triangle, x_);
+            if (place_face_nodes) place_face_nodes(topology_, triangle, x_);
             certify(triangle);
         }
     }
@@ -264,8 +262,9 @@ class UnsignedAngleUntangler {
                 Eigen::VectorXd variables = start;
                 const BfgsResult result = minimize(edge, sum, first_step, variables);
                 ended.iterations += result.iterations;
-                place(edge, variables);
-                if (patch_minimum(edge) > best_minimum) {
+                for (const Placement placement : placements_) {
+                    place(edge, variables, placement);
+                    if (patch_minimum(edge) <= best_minimum) continue;
                     best_minimum = patch_minimum(edge);
                     best = save(edge);
                 }
@@ -289,6 +288,7 @@ class UnsignedAngleUntangler {
     QualityOptions quality_options_;
     JacobianBounds bounds_;
     std::vector<InteriorEdge> edges_;
+    const std::vector<Placement> placements_;
     Coordinates x_;
     std::vector<ElementQuality> qualities_;
 };
