@@ -69,8 +69,9 @@ class Untangler {
         state_.qualities = report.elements;
         impossible_.resize(state_.qualities.size());
         for (const Index element : elements_where([](const auto& quality) { return !is_valid(quality); }))
-            impossible_[element] = find_impossibility(mesh_, element, report.orientation_sign,
-                                                      [this](Index node) { return may_move(node); });
+            impossible_[element] = find_impossibility(
+                mesh_, element, report.orientation_sign, node_elements_, [this](Index node) { return may_move(node); },
+                [this](Index other) { return impossible_[other].has_value(); });
         const Stopwatch watch;
         make_valid();
         result_.valid_seconds = watch.seconds();
