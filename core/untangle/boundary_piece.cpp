@@ -173,7 +173,15 @@ Closest BoundaryPiece::closest(const Eigen::Vector3d& y, std::optional<Eigen::Ve
         (x_.rowwise() - y.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
         start = reference_node(static_cast<int>(nearest));
     }
-    if (is_curve()) return closest_of_edge(y, 0, std::clamp((*start)[0], 0.0, 1.0));
+    if (is_curve()) {
+        Closest best = closest_of_edge(y, 0, std::clamp((*start)[0], 0.0, 1.0));
+        // A curve that turns back before its end may hold there what it has elsewhere.
+        for (int i = 1; i < type_.order && best.corner >= 0; ++i) {
+            const Closest candidate = closest_of_edge(y, 0, static_cast<double>(i) / type_.order);
+            if (candidate.squared_distance < best.squared_distance) best = candidate;
+        }
+        return best;
+    }
     if (const auto inside = closest_inside(y, *start)) return *inside;
     Closest best;
     best.squared_distance = std::numeric_limits<double>::infinity();

@@ -69,8 +69,9 @@ class Untangler {
         state_.qualities = report.elements;
         impossible_.resize(state_.qualities.size());
         for (const Index element : elements_where([](const auto& quality) { return !is_valid(quality); }))
-            impossible_[element] = find_impossibility(mesh_, element, report.orientation_sign,
-                                                      [this](Index node) { return may_move(node); });
+            impossible_[element] = find_impossibility(
+                mesh_, element, report.orientation_sign, node_elements_, [this](Index node) { return may_move(node); },
+                [this](Index other) { return impossible_[other].has_value(); });
         const Stopwatch watch;
         make_valid();
         result_.valid_seconds = watch.seconds();
@@ -125,15 +126,23 @@ class Untangler {
     void make_valid() {
         std::vector<Index> seeds = mendable();
         const std::size_t at_start = seeds.size();
+        std::vector<FreePatch> tried;
         for (int layers = options_.layers; !seeds.empty() && layers <= options_.max_layers; layers *= 2) {
-            begin_pass();
-            const std::vector<FreePatch> patches =
+            std::vector<FreePatch> patches =
                 make_patches(topology_, node_elements_, seeds, layers, [this](Index node) { return may_move(node); });
+            // A patch that could not grow would do the same again.
+            std::erase_if(patches, [&](const FreePatch& patch) {
+                return std::any_of(tried.begin(), tried.end(),
+                                   [&](const FreePatch& other) { return other.elements == patch.elements; });
+            });
+            if (patches.empty()) break;
+            begin_pass();
             std::vector<int> rounds(patches.size(), 0);
             for_each_patch(patches, {}, [&](std::size_t i) { rounds[i] = PatchRun(*this, patches[i]).untangle(); });
             for (const int count : rounds) result_.rounds += count;
             end_pass();
             seeds = mendable();
+            tried = std::move(patches);
             context_.report("Making elements valid",
                             1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
         }
@@ -234,7 +243,8 @@ class Untangler {
             double least = objective.least_determinant(), best_least = least;
             const GuaranteedOptions& options = untangler_.options_;
             int rounds_without_gain = 0;
-            constexpr double margin = 1e-3;
+            double margin = 1e-3;
+            int failed_certificates = 0;
             constexpr int patience = 20;
             while (round_ < options.max_rounds && rounds_without_gain < patience) {
                 untangler_.context_.check();
@@ -263,6 +273,8 @@ class Untangler {
                     ++number;
                 }
                 if (is_done) break;
+                // Where positive samples keep on hiding what is not between them, a wider berth helps.
+                if (++failed_certificates > 1) margin = std::min(0.1, 2.0 * margin);
             }
             if (!untangler_.observer_) return;
             distortion.eps = 1.0;

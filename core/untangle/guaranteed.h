@@ -37,7 +37,8 @@ struct GuaranteedOptions {
 struct UnmendedElement {
     Index element = 0;
     std::string reason;
-    /// Whether it is proved that nothing can make it valid as long as the nodes that may not move stay.
+    /// Whether it is proved that nothing can make it and its neighbours valid as long as the nodes that may not move
+    /// stay (see find_impossibility).
     bool is_proved = false;
     /// min J / max |J|, max |J| that of the element as it was given: if proved, no position of the nodes that may move
     /// has more; else the best that was reached (with max |J| that of the element as it is).
