@@ -65,9 +65,10 @@ Outcome run_signed_angles(const CurvedMesh& input, const Options& options, Untan
     const Stopwatch watch;
     UntangleResult result = untangle_signed_angles(input, options.signed_angles, observer, context);
     timings["untangle"] = watch.seconds();
+    const bool is_automatic = options.signed_angles.beta_choice == BetaChoice::automatic;
     Outcome outcome;
     outcome.details = {{"method", "signed-angle"},
-                       {"beta", options.signed_angles.beta},
+                       {"beta", is_automatic ? Json("auto") : Json(options.signed_angles.beta)},
                        {"passes", result.passes},
                        {"stopped", to_string(result.reason)}};
     outcome.text = fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
@@ -163,20 +164,29 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     command->add_option("--method", options->method, "guaranteed (default; signed-angle with --beta) or signed-angle")
         ->check(CLI::IsMember({"guaranteed", "signed-angle"}));
     command
-        ->add_option_function<double>(
+        ->add_option_function<std::string>(
             "--beta",
-            [options](double beta) {
-                options->signed_angles.beta = beta;
+            [options](const std::string& beta) {
+                SignedAngleOptions& signed_angles = options->signed_angles;
                 options->has_beta = true;
+                signed_angles.beta_choice = beta == "auto" ? BetaChoice::automatic : BetaChoice::given;
+                if (beta != "auto") signed_angles.beta = std::strtod(beta.c_str(), nullptr);
             },
-            fmt::format(
-                "Weight of the angles against the displacement, in (0, 1], {} unless given; small for stretched "
-                "layers",
-                options->signed_angles.beta))
+            fmt::format("Weight of the angles against the displacement, in (0, 1], {} unless given; small for "
+                        "stretched layers; auto: the best for every edge",
+                        options->signed_angles.beta))
         ->check([](const std::string& text) {
-            const double beta = std::strtod(text.c_str(), nullptr);
-            return beta > 0.0 && beta <= 1.0 ? std::string() : "beta must be greater than 0 and at most 1";
-        });
+            char* end = nullptr;
+            const double beta = std::strtod(text.c_str(), &end);
+            const bool is_number = end != text.c_str() && *end == '\0' && beta > 0.0 && beta <= 1.0;
+            return is_number || text == "auto" ? std::string() : "beta must be auto, or greater than 0 and at most 1";
+        })
+        ->type_name("B|auto");
+    command->add_flag_function(
+        "--length-normalised",
+        [options](std::int64_t) { options->signed_angles.displacement = DisplacementUnit::edge_length; },
+        "Measure displacements in lengths of the node's edge, so that beta does not depend on the unit of length "
+        "(signed-angle; always so with --beta auto)");
     command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();

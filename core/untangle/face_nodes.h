@@ -1,19 +1,41 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
 #include "core/mesh/curved_mesh.h"
 
 namespace curvewright {
 
-/// Puts the interior nodes of a curved triangle (order 3 and up) where its edges ask for; x and y only.
-///
-/// The mean of the triangle's high-order edge nodes: the thesis's choice for the one face node of order 3 (chapter 4,
-/// Alg. 6, second pass).
-void place_face_nodes_at_mean(const MeshTopology& topology, Index triangle, Coordinates& x);
+/// How the nodes inside a curved triangle follow from those on its edges.
+enum class FaceRule {
+    mean,   ///< the mean of the triangle's high-order edge nodes (thesis, Alg. 6, second pass); all nodes at one point
+    blend,  ///< the edges' curves blended into the triangle, see FaceNodes
+};
 
-/// The straight-sided triangle plus every edge's deviation from its straight line, blended into the triangle: on the
-/// edge from corner a to b with deviation d(t), the term la lb d(t) / (t (1 - t)) at t = (1 + lb - la) / 2, la and lb
-/// the barycentric coordinates (Szabó, Babuška, "Finite Element Analysis", 1991, 6.2: blending functions). Right for
-/// every order: nodes of straight-sided triangles stay, and maps that are quadratic are reproduced.
-void blend_face_nodes(const MeshTopology& topology, Index triangle, Coordinates& x);
+/// Places the nodes inside a curved triangle by a fixed affine combination of the nodes on its edges.
+///
+/// The blend adds to the straight triangle the extension of every edge's deviation from its chord. On the edge from
+/// corner a to b the deviation is s (1 - s) g(s) with a polynomial g of degree order - 2; it is extended by
+/// l_a l_b g((1 + l_b - l_a) / 2), l the barycentric coordinates (Szabó, Babuška, "Finite element analysis", 1991,
+/// 6.2: edge modes of the triangle). The result has degree `order`, agrees with the three edges and is what it should
+/// be if the element is affine or quadratic.
+class FaceNodes {
+  public:
+    /// order: 1..max_order; with less than 3 there are no face nodes. The mean is for order 3 only, where there is one
+    /// face node; throws std::invalid_argument for higher orders.
+    FaceNodes(int order, FaceRule rule);
+
+    /// Positions in the element of the nodes that place() moves.
+    const std::vector<int>& local_nodes() const { return *local_nodes_; }
+    /// nodes: the triangle's. Writes x and y of its face nodes.
+    void place(std::span<const Index> nodes, Coordinates& x) const;
+
+  private:
+    const std::vector<int>* local_nodes_;
+    Eigen::MatrixXd weights_;  ///< face nodes × nodes; a row sums to 1, the columns of face nodes are 0
+};
 
 }  // namespace curvewright

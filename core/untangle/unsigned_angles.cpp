@@ -57,7 +57,7 @@ class UnsignedAngleUntangler {
           context_(context),
           bounds_(*topology_.uniform_type()),
           edges_(find_interior_edges(topology_)),
-          placements_(placements()),
+          face_placements_(face_placements()),
           x_(mesh.coordinates()) {
         QualityReport report = assess_quality(mesh, quality_options_, context);
         quality_options_.orientation_sign = report.orientation_sign;
@@ -203,19 +203,19 @@ class UnsignedAngleUntangler {
         }
     }
 
-    using Placement = void (*)(const MeshTopology&, Index, Coordinates&);
-    /// The ways to place face nodes that are tried; null: they stay.
-    std::vector<Placement> placements() const {
-        if (!options_.moves_face_nodes || topology_.order() < 3) return {nullptr};
-        // One face node: either way may be the better one.
-        if (topology_.order() == 3) return {place_face_nodes_at_mean, blend_face_nodes};
-        return {blend_face_nodes};
+    /// The ways to place face nodes that are tried; none: they stay.
+    std::vector<FaceNodes> face_placements() const {
+        const int order = topology_.order();
+        if (!options_.moves_face_nodes || order < 3) return {};
+        std::vector<FaceNodes> result{{order, FaceRule::blend}};
+        if (order == 3) result.emplace_back(order, FaceRule::mean);  // either may be the better one
+        return result;
     }
-    void place(const InteriorEdge& edge, const Eigen::VectorXd& variables, Placement place_face_nodes) {
+    void place(const InteriorEdge& edge, const Eigen::VectorXd& variables, const FaceNodes* face_nodes) {
         for (std::size_t i = 0; i < edge.nodes.size(); ++i)
             x_.row(edge.nodes[i]).head<2>() = variables.segment<2>(static_cast<Eigen::Index>(2 * i));
         for (const Index triangle : edge.triangles) {
-            if (place_face_nodes) place_face_nodes(topology_, triangle, x_);
+            if (face_nodes) face_nodes->place(topology_.element_nodes(triangle), x_);
             certify(triangle);
         }
     }
@@ -262,12 +262,14 @@ class UnsignedAngleUntangler {
                 Eigen::VectorXd variables = start;
                 const BfgsResult result = minimize(edge, sum, first_step, variables);
                 ended.iterations += result.iterations;
-                for (const Placement placement : placements_) {
-                    place(edge, variables, placement);
-                    if (patch_minimum(edge) <= best_minimum) continue;
+                const auto try_placement = [&](const FaceNodes* face_nodes) {
+                    place(edge, variables, face_nodes);
+                    if (patch_minimum(edge) <= best_minimum) return;
                     best_minimum = patch_minimum(edge);
                     best = save(edge);
-                }
+                };
+                if (face_placements_.empty()) try_placement(nullptr);
+                for (const FaceNodes& face_nodes : face_placements_) try_placement(&face_nodes);
                 restore(edge, before);
                 if (result.iterations == 0) break;  // flat: another step leads to the same place
             }
@@ -288,7 +290,7 @@ class UnsignedAngleUntangler {
     QualityOptions quality_options_;
     JacobianBounds bounds_;
     std::vector<InteriorEdge> edges_;
-    const std::vector<Placement> placements_;
+    const std::vector<FaceNodes> face_placements_;
     Coordinates x_;
     std::vector<ElementQuality> qualities_;
 };
