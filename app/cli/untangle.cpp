@@ -201,7 +201,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->type_name("MODE|GROUP=MODE");
     command
         ->add_option("--shape-floor", options->guaranteed.shape_floor,
-                     "Worst mean ratio that improving may cost, unless it is lower already; 0 = none (guaranteed)")
+                     "Worst mean ratio that improving may leave, where that can be had; 0 = none (guaranteed)")
         ->type_name("F")
         ->check(CLI::Range(0.0, 0.999));
     command->add_flag("!--valid-only", options->guaranteed.improves,
