@@ -116,6 +116,8 @@ Outcome run_guaranteed(const CurvedMesh& input, const Options& options, Untangle
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
+    if (!options.boundary.empty() && !options.is_guaranteed())
+        throw InvalidInput("Boundary rules are for the guaranteed method; the others keep the boundary as it is.");
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
