@@ -117,6 +117,8 @@ Outcome run_guaranteed(const CurvedMesh& input, const Options& options, Untangle
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
+    if (!options.boundary.empty() && !options.is_guaranteed())
+        throw InvalidInput("Boundary rules are for the guaranteed method; the others keep the boundary as it is.");
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -211,7 +213,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->type_name("MODE|GROUP=MODE");
     command
         ->add_option("--shape-floor", options->guaranteed.shape_floor,
-                     "Worst mean ratio that improving may cost, unless it is lower already; 0 = none (guaranteed)")
+                     "Worst mean ratio that improving may leave, where that can be had; 0 = none (guaranteed)")
         ->type_name("F")
         ->check(CLI::Range(0.0, 0.999));
     command->add_flag("!--valid-only", options->guaranteed.improves,

@@ -197,9 +197,13 @@ class Untangler {
         }
 
         /// Writes the positions, has them judged and keeps them if they are the best so far.
-        std::vector<ElementQuality> judge(const ConstrainedObjective& objective, bool is_acceptable = true) {
+        std::vector<ElementQuality> judge(const ConstrainedObjective& objective, double shape = 1.0) {
             const std::vector<ElementQuality> now = untangler_.certify(patch_);
-            if (is_acceptable) best_.offer(state_.coordinates, objective.feet(variables_), now);
+            const std::vector<Foot> feet = objective.feet(variables_);
+            const double floor = untangler_.options_.shape_floor;
+            if (shape >= std::min(floor, worst_shape_at_start_)) best_.offer(state_.coordinates, feet, now);
+            if (above_floor_ && shape >= floor && above_floor_->offer(state_.coordinates, feet, now))
+                is_above_floor_ = true;
             if (untangler_.observer_) {
                 const Standing standing(now);
                 const Index element = patch_.elements[standing.worst];
@@ -283,32 +287,32 @@ class Untangler {
 
         void improve_to_floor() {
             double shape_weight = untangler_.options_.shape_weight;
-            const double wanted = untangler_.options_.shape_floor;
-            std::optional<PatchShape> shape;
-            double floor = 0.0;
-            if (wanted > 0.0) {
-                shape.emplace(untangler_.topology_, patch_.elements, untangler_.mesh_.coordinates());
-                floor = std::min(wanted, shape->worst(state_.coordinates));
+            if (untangler_.options_.shape_floor > 0.0) {
+                shape_.emplace(untangler_.topology_, patch_.elements, untangler_.mesh_.coordinates());
+                worst_shape_at_start_ = shape_->worst(state_.coordinates);
+                above_floor_ = best_;
+                is_above_floor_ = worst_shape_at_start_ >= untangler_.options_.shape_floor;
             }
             constexpr double largest_weight = 100.0, factor = 4.0;
-            while (!improve_with(shape_weight, shape, floor) && shape_weight < largest_weight) {
+            while (!improve_with(shape_weight) && shape_weight < largest_weight) {
                 shape_weight *= factor;
                 best_.restore(state_);
             }
+            if (is_above_floor_) best_ = *above_floor_;
         }
 
         /// Whether the shape is above the floor at the end.
-        bool improve_with(double shape_weight, const std::optional<PatchShape>& shape, double floor) {
+        bool improve_with(double shape_weight) {
             ConstrainedObjective objective = untangler_.make_objective(patch_);
             variables_ = objective.start();
             DistortionOptions distortion;
-            bool is_acceptable = true;
+            double shape = 1.0;
             const auto advance = [&](const LbfgsOptions& lbfgs) {
                 minimize(objective, distortion, lbfgs, [] { return true; });
                 objective.recentre(variables_);
                 objective.store(variables_, state_.coordinates);
-                is_acceptable = !shape || shape->worst(state_.coordinates) >= floor;
-                judge(objective, is_acceptable);
+                if (shape_) shape = shape_->worst(state_.coordinates);
+                judge(objective, shape);
             };
             const GuaranteedOptions& options = untangler_.options_;
             Eigen::VectorXd gradient;
@@ -327,7 +331,7 @@ class Untangler {
                 advance(lbfgs);
             }
             if (untangler_.observer_) objective_after_ = objective.evaluate(variables_, DistortionOptions{}, gradient);
-            return is_acceptable;
+            return shape >= untangler_.options_.shape_floor;
         }
 
         void began() const {
@@ -351,7 +355,11 @@ class Untangler {
         Untangler& untangler_;
         MeshState& state_;
         const FreePatch& patch_;
-        BestOfPatch best_;
+        BestOfPatch best_;                        ///< not below the floor, or the shape at the start if that is lower
+        std::optional<BestOfPatch> above_floor_;  ///< if there is a floor: not below it
+        bool is_above_floor_ = false;             ///< whether a state above the floor is known
+        std::optional<PatchShape> shape_;
+        double worst_shape_at_start_ = 1.0;
         const double least_before_ = best_.standing().least;
         Eigen::VectorXd variables_;
         int round_ = 0, iterations_ = 0;

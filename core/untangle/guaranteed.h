@@ -24,8 +24,9 @@ struct GuaranteedOptions {
     double shape_weight = 0.036;
     /// Weight of the elements' scaled Jacobians added up, so that the average rises with the least.
     double mean_weight = 0.007;
-    /// Worst mean ratio (see assess_shape; the ideal is the straight-sided input) that improving may cost a patch,
-    /// unless the patch is worse already; 0 = no floor. The shape weight is raised where it does not suffice.
+    /// Worst mean ratio (see assess_shape; the ideal is the straight-sided input) that improving may leave in a patch;
+    /// 0 = no floor. The shape weight is raised where it does not suffice. Where no improvement reaches the floor, the
+    /// shape is at least not lowered.
     double shape_floor = 0.0;
     /// What the boundary's nodes may do.
     BoundaryRules boundary;

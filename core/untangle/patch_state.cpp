@@ -59,29 +59,30 @@ std::vector<ElementQuality> qualities_of(const std::vector<Index>& elements, con
 }  // namespace
 
 BestOfPatch::BestOfPatch(const FreePatch& patch, const MeshState& state)
-    : patch_(patch),
+    : patch_(&patch),
       qualities_(qualities_of(patch.elements, state)),
       standing_(qualities_),
       positions_(positions_of(patch.nodes, state.coordinates)),
       feet_(feet_of(patch.nodes, state.feet)) {}
 
-void BestOfPatch::offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities) {
+bool BestOfPatch::offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities) {
     const Standing standing(qualities);
-    if (!standing.is_better_than(standing_)) return;
+    if (!standing.is_better_than(standing_)) return false;
     standing_ = standing;
     qualities_ = std::move(qualities);
-    positions_ = positions_of(patch_.nodes, x);
+    positions_ = positions_of(patch_->nodes, x);
     feet_ = feet;
+    return true;
 }
 
 void BestOfPatch::restore(MeshState& state) const {
     std::size_t next_foot = 0;
-    for (std::size_t i = 0; i < patch_.nodes.size(); ++i) {
-        const Index node = patch_.nodes[i];
+    for (std::size_t i = 0; i < patch_->nodes.size(); ++i) {
+        const Index node = patch_->nodes[i];
         state.coordinates.row(node) = positions_.row(static_cast<Eigen::Index>(i));
         if (!state.feet.empty() && state.feet[node].piece >= 0) state.feet[node] = feet_[next_foot++];
     }
-    for (std::size_t i = 0; i < patch_.elements.size(); ++i) state.qualities[patch_.elements[i]] = qualities_[i];
+    for (std::size_t i = 0; i < patch_->elements.size(); ++i) state.qualities[patch_->elements[i]] = qualities_[i];
 }
 
 namespace {

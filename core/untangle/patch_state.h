@@ -26,14 +26,14 @@ struct MeshState {
 class BestOfPatch {
   public:
     BestOfPatch(const FreePatch& patch, const MeshState& state);
-    /// Takes the patch's part of the positions if it stands better. feet: of the patch's sliding nodes.
-    void offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities);
+    /// Takes the patch's part of the positions if it stands better, and says so. feet: of the patch's sliding nodes.
+    bool offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities);
     /// Makes the best state the present one.
     void restore(MeshState& state) const;
     const Standing& standing() const { return standing_; }
 
   private:
-    const FreePatch& patch_;
+    const FreePatch* patch_;
     std::vector<ElementQuality> qualities_;
     Standing standing_;
     Coordinates positions_;
