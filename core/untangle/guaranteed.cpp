@@ -24,6 +24,12 @@ std::vector<untangle_event::Position> event_positions(const std::vector<Index>& 
     return result;
 }
 
+/// Multiplications, but for a factor, of one evaluation of an element's objective: samples × nodes × dimensions.
+double evaluation_work(ElementType type) {
+    const int dim = dimension(type.shape), degree = std::clamp(dim * (type.order - 1), 1, max_order);
+    return static_cast<double>(node_count({type.shape, degree})) * node_count(type) * dim;
+}
+
 class Untangler {
   public:
     Untangler(const CurvedMesh& mesh, const GuaranteedOptions& options, UntangleObserver* observer,
@@ -150,18 +156,54 @@ class Untangler {
 
     /// Second stage: the least scaled Jacobian of every patch rises as far as it goes.
     void improve() {
-        const std::vector<Index> seeds = elements_where([&](const ElementQuality& quality) {
+        std::vector<Index> seeds = elements_to_improve();
+        std::vector<FreePatch> patches = patches_to_improve(seeds);
+        const bool is_limited = work_of(patches) > options_.improve_work;
+        constexpr int max_passes = 3;
+        for (int pass = 0; pass < (is_limited ? max_passes : 1) && !patches.empty(); ++pass) {
+            if (is_limited) patches = patches_to_improve(worst_within_limit(seeds));
+            const double least_before = Standing(state_.qualities).least;
+            begin_pass();
+            context_.report("Improving", 0.0);
+            for_each_patch(patches, "Improving", [&](std::size_t i) { PatchRun(*this, patches[i]).improve(); });
+            end_pass();
+            if (Standing(state_.qualities).least <= least_before) break;
+            if (is_limited) seeds = elements_to_improve();
+        }
+    }
+
+    /// The worst first.
+    std::vector<Index> elements_to_improve() const {
+        std::vector<Index> seeds = elements_where([&](const ElementQuality& quality) {
             return is_valid(quality) && quality.scaled_jacobian < options_.target;
         });
-        // What could not be mended stays as it is, with its nodes: its neighbours would be bent for nothing.
-        const std::vector<FreePatch> patches = make_patches(
+        std::stable_sort(seeds.begin(), seeds.end(), [this](Index a, Index b) {
+            return state_.qualities[a].scaled_jacobian < state_.qualities[b].scaled_jacobian;
+        });
+        return seeds;
+    }
+    /// What could not be mended stays as it is, with its nodes: its neighbours would be bent for nothing.
+    std::vector<FreePatch> patches_to_improve(const std::vector<Index>& seeds) const {
+        return make_patches(
             topology_, node_elements_, seeds, options_.layers, [this](Index node) { return may_move(node); },
             [this](Index element) { return !is_valid(state_.qualities[element]); });
-        if (patches.empty()) return;
-        begin_pass();
-        context_.report("Improving", 0.0);
-        for_each_patch(patches, "Improving", [&](std::size_t i) { PatchRun(*this, patches[i]).improve(); });
-        end_pass();
+    }
+    double work_of(const std::vector<FreePatch>& patches) const {
+        double work = 0.0;
+        for (const FreePatch& patch : patches)
+            for (const Index element : patch.elements) work += evaluation_work(topology_.element_type(element));
+        return work;
+    }
+    /// As many of the seeds, from the first, as may be improved together; at least one.
+    std::vector<Index> worst_within_limit(const std::vector<Index>& seeds) const {
+        std::size_t fits = 1, too_many = seeds.size() + 1;
+        while (fits + 1 < too_many) {
+            const std::size_t middle = (fits + too_many) / 2;
+            const bool is_within =
+                work_of(patches_to_improve({seeds.begin(), seeds.begin() + middle})) <= options_.improve_work;
+            (is_within ? fits : too_many) = middle;
+        }
+        return {seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(std::min(fits, seeds.size()))};
     }
 
     /// The work on one patch. Whatever ends it, the patch is left in the best state seen.
@@ -435,6 +477,8 @@ void check(const GuaranteedOptions& options) {
             fmt::format("The shape weight is {}; it must be above 0 and at most 100.", options.shape_weight));
     if (!(options.mean_weight >= 0.0 && options.mean_weight <= 100.0))
         throw InvalidInput(fmt::format("The mean weight is {}; it must be from 0 to 100.", options.mean_weight));
+    if (!(options.improve_work > 0.0))
+        throw InvalidInput(fmt::format("The work of improving is {}; it must be above 0.", options.improve_work));
     if (!(options.target > 0.0 && options.target <= 1.0))
         throw InvalidInput(fmt::format("The target is {}; it must be above 0 and at most 1.", options.target));
     if (!(options.shape_floor >= 0.0 && options.shape_floor < 1.0))

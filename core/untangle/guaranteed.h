@@ -19,6 +19,10 @@ struct GuaranteedOptions {
     bool improves = true;
     /// Elements below this scaled Jacobian are worth improving.
     double target = 0.9;
+    /// Work that improving may take, in multiplications per evaluation (samples × nodes × dimensions, over all
+    /// elements): 4e6 are some 13,000 cubic triangles or 800 cubic tetrahedra. Of more damage than that, the worst
+    /// elements are improved first, in a few passes, and the others stay as they are.
+    double improve_work = 4e6;
     /// Weight of the shape energy against the least scaled Jacobian: small values raise the scaled Jacobian further, at
     /// the price of evenly stretched slivers.
     double shape_weight = 0.036;

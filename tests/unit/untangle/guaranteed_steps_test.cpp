@@ -160,6 +160,30 @@ TEST(GuaranteedSteps, AShapeFloorHoldsTheWorstShapeUp) {
     EXPECT_THROW(untangle_guaranteed(mesh, options), InvalidInput);
 }
 
+TEST(GuaranteedSteps, LimitedWorkGoesToTheWorstElementsFirst) {
+    const CurvedMesh mesh = tangled_square(3, 12, 0.02);
+    GuaranteedOptions options;
+    options.improves = false;
+    const CurvedMesh valid = mesh.with_coordinates(untangle_guaranteed(mesh, options).coordinates);
+    const QualitySummary start = summary_of(valid, valid.coordinates());
+    ASSERT_EQ(start.invalid, 0);
+    options.improves = true;
+    const Coordinates all = untangle_guaranteed(valid, options).coordinates;
+    options.improve_work = 1e4;  // some 30 elements
+    const Coordinates few = untangle_guaranteed(valid, options).coordinates;
+    const auto moved = [&](const Coordinates& x) {
+        Index count = 0;
+        for (Eigen::Index node = 0; node < x.rows(); ++node) count += x.row(node) != valid.coordinates().row(node);
+        return count;
+    };
+    EXPECT_GT(moved(few), 0);
+    EXPECT_LT(moved(few), moved(all) / 2);
+    EXPECT_GT(summary_of(valid, few).min, start.min);
+    EXPECT_GT(summary_of(valid, all).min, summary_of(valid, few).min);
+    options.improve_work = 0.0;
+    EXPECT_THROW(untangle_guaranteed(valid, options), InvalidInput);
+}
+
 TEST(GuaranteedSteps, TheUnitOfLengthAndTheOriginDoNotMatter) {
     for (const GuaranteedOptions& options : {GuaranteedOptions{}, sliding()}) {
         const CurvedMesh mesh = tangled_square(4);
