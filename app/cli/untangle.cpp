@@ -1,8 +1,10 @@
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "app/cli/command.h"
 #include "app/cli/output.h"
@@ -12,20 +14,24 @@
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/untangle/trace.h"
+#include "core/untangle/unsigned_angles.h"
 
 namespace curvewright::cli {
 namespace {
 
+constexpr const char* guaranteed_method = "guaranteed";
+constexpr const char* signed_method = "signed-angle";
+constexpr const char* unsigned_method = "unsigned-angle";
+
 struct Options {
     std::filesystem::path mesh, trace;
     OutputOptions output;
-    std::string method;  ///< as given; empty = guaranteed, or signed-angle where its beta is given
-    bool has_beta = false;
+    std::string method = guaranteed_method;
     SignedAngleOptions signed_angles;
+    bool is_literal = false;  ///< unsigned angles to the letter
+    int max_passes = 0;       ///< 0 = the method's own
     GuaranteedOptions guaranteed;
     std::vector<std::string> boundary;  ///< rules as given
-
-    bool is_guaranteed() const { return method == "guaranteed" || (method.empty() && !has_beta); }
 };
 
 /// What a method has to say about its run, for the report.
@@ -60,19 +66,42 @@ Json shape_json(const ShapeSummary& shape) {
     return {{"min", shape.min}, {"mean", shape.mean}};
 }
 
+std::string passes_text(const UntangleResult& result, double seconds) {
+    return fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
+                       to_string(result.reason), seconds);
+}
+
 Outcome run_signed_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
                           const TaskContext& context, Json& timings) {
+    SignedAngleOptions method = options.signed_angles;
+    if (options.max_passes > 0) method.max_passes = options.max_passes;
     const Stopwatch watch;
-    UntangleResult result = untangle_signed_angles(input, options.signed_angles, observer, context);
+    UntangleResult result = untangle_signed_angles(input, method, observer, context);
     timings["untangle"] = watch.seconds();
-    const bool is_automatic = options.signed_angles.beta_choice == BetaChoice::automatic;
+    const bool is_automatic = method.beta_choice == BetaChoice::automatic;
     Outcome outcome;
-    outcome.details = {{"method", "signed-angle"},
-                       {"beta", is_automatic ? Json("auto") : Json(options.signed_angles.beta)},
+    outcome.details = {{"method", signed_method},
+                       {"beta", is_automatic ? Json("auto") : Json(method.beta)},
                        {"passes", result.passes},
                        {"stopped", to_string(result.reason)}};
-    outcome.text = fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
-                               to_string(result.reason), watch.seconds());
+    outcome.text = passes_text(result, watch.seconds());
+    outcome.coordinates = std::move(result.coordinates);
+    return outcome;
+}
+
+Outcome run_unsigned_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
+                            const TaskContext& context, Json& timings) {
+    UnsignedAngleOptions method = options.is_literal ? UnsignedAngleOptions::literal() : UnsignedAngleOptions();
+    if (options.max_passes > 0) method.max_passes = options.max_passes;
+    const Stopwatch watch;
+    UntangleResult result = untangle_unsigned_angles(input, method, observer, context);
+    timings["untangle"] = watch.seconds();
+    Outcome outcome;
+    outcome.details = {{"method", unsigned_method},
+                       {"literal", options.is_literal},
+                       {"passes", result.passes},
+                       {"stopped", to_string(result.reason)}};
+    outcome.text = passes_text(result, watch.seconds());
     outcome.coordinates = std::move(result.coordinates);
     return outcome;
 }
@@ -115,10 +144,17 @@ Outcome run_guaranteed(const CurvedMesh& input, const Options& options, Untangle
     return outcome;
 }
 
+/// Refuses options that the method chosen does not read. of: the options of each method but the common ones.
+void check_options(const CLI::App& command, const std::string& method,
+                   const std::map<std::string, std::vector<std::string>>& methods_of) {
+    for (const auto& [option, methods] : methods_of)
+        if (command.count(option) > 0 && std::find(methods.begin(), methods.end(), method) == methods.end())
+            throw CLI::ValidationError(
+                option, fmt::format("is for --method {}, not for {}", fmt::join(methods, " or "), method));
+}
+
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
-    if (!options.boundary.empty() && !options.is_guaranteed())
-        throw InvalidInput("Boundary rules are for the guaranteed method; the others keep the boundary as it is.");
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -127,8 +163,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     std::optional<TraceFile> trace;
     if (!options.trace.empty()) trace.emplace(options.trace);
     UntangleObserver* observer = trace ? trace->observer() : nullptr;
-    const Outcome result = options.is_guaranteed() ? run_guaranteed(input, options, observer, context, timings)
-                                                   : run_signed_angles(input, options, observer, context, timings);
+    const auto run_method = options.method == guaranteed_method ? run_guaranteed
+                            : options.method == signed_method   ? run_signed_angles
+                                                                : run_unsigned_angles;
+    const Outcome result = run_method(input, options, observer, context, timings);
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
     const QualityReport after = certify_result(mesh, before, context, timings);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
@@ -159,24 +197,25 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 }  // namespace
 
 void add_untangle(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "untangle", "Make invalid elements valid; the boundary stays");
+    auto* command = add_command(app, invocation, "untangle", "Make invalid elements valid; the boundary stays unless told otherwise");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh);
     add_output_options(*command, options->output);
-    command->add_option("--method", options->method, "guaranteed (default; signed-angle with --beta) or signed-angle")
-        ->check(CLI::IsMember({"guaranteed", "signed-angle"}));
+    options->signed_angles.beta_choice = BetaChoice::automatic;
+    command
+        ->add_option("--method", options->method,
+                     "guaranteed (default; signed-angle with --beta), signed-angle or unsigned-angle")
+        ->check(CLI::IsMember({guaranteed_method, signed_method, unsigned_method}));
     command
         ->add_option_function<std::string>(
             "--beta",
             [options](const std::string& beta) {
                 SignedAngleOptions& signed_angles = options->signed_angles;
-                options->has_beta = true;
                 signed_angles.beta_choice = beta == "auto" ? BetaChoice::automatic : BetaChoice::given;
                 if (beta != "auto") signed_angles.beta = std::strtod(beta.c_str(), nullptr);
             },
-            fmt::format("Weight of the angles against the displacement, in (0, 1], {} unless given; small for "
-                        "stretched layers; auto: the best for every edge",
-                        options->signed_angles.beta))
+            "Weight of the angles against the displacement, in (0, 1], small for stretched layers; auto (default): the "
+            "best for every edge (signed-angle)")
         ->check([](const std::string& text) {
             char* end = nullptr;
             const double beta = std::strtod(text.c_str(), &end);
@@ -189,11 +228,12 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         [options](std::int64_t) { options->signed_angles.displacement = DisplacementUnit::edge_length; },
         "Measure displacements in lengths of the node's edge, so that beta does not depend on the unit of length "
         "(signed-angle; always so with --beta auto)");
-    command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")
-        ->check(CLI::Range(1, 1000000))
-        ->capture_default_str();
+    command->add_option("--max-passes", options->max_passes, "Passes at most (signed-angle, unsigned-angle)")
+        ->check(CLI::Range(1, 1000000));
+    command->add_flag("--literal", options->is_literal,
+                      "The method as published: one start and one first step for every edge (unsigned-angle)");
     command->add_flag("--reject-worse-pass", options->signed_angles.reject_worse_pass,
-                      "Take back a pass that lowers the certified quality, and stop there");
+                      "Take back a pass that lowers the certified quality, and stop there (signed-angle)");
     command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")
         ->type_name("FILE.jsonl");
     command
@@ -218,6 +258,20 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->check(CLI::Range(0.0, 0.999));
     command->add_flag("!--valid-only", options->guaranteed.improves,
                       "Stop as soon as all elements are valid (guaranteed)");
+    command->parse_complete_callback([command, options] {
+        // A beta alone says which method is meant.
+        if (command->count("--method") == 0 && command->count("--beta") > 0) options->method = signed_method;
+        check_options(*command, options->method,
+                      {{"--beta", {signed_method}},
+                       {"--length-normalised", {signed_method}},
+                       {"--reject-worse-pass", {signed_method}},
+                       {"--max-passes", {signed_method, unsigned_method}},
+                       {"--literal", {unsigned_method}},
+                       {"--target", {guaranteed_method}},
+                       {"--boundary", {guaranteed_method}},
+                       {"--shape-floor", {guaranteed_method}},
+                       {"--valid-only", {guaranteed_method}}});
+    });
     set_action(*command, invocation, options, run);
 }
 

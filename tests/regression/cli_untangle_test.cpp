@@ -106,7 +106,64 @@ TEST_F(CommandLine, UntangleLetsNamedPartsOfTheBoundarySlide) {
 
     expect_bad_input({"untangle", tangled, "-o", out, "--boundary", "loose"}, "'loose'");
     expect_bad_input({"untangle", tangled, "-o", out, "--boundary", "lid=slide"}, "'lid'");
-    expect_bad_input({"untangle", tangled, "-o", out, "--boundary", "slide", "--beta", "0.7"}, "guaranteed");
+}
+
+TEST_F(CommandLine, UntangleRefusesOptionsOfOtherMethods) {
+    make_tangled();
+    const std::string out = folder / "valid.msh";
+    const std::vector<std::vector<std::string>> wrong{
+        {"--boundary", "slide", "--beta", "0.7"},
+        {"--target", "0.5", "--method", "signed-angle"},
+        {"--literal"},
+        {"--method", "unsigned-angle", "--beta", "auto"},
+        {"--method", "unsigned-angle", "--valid-only"},
+        {"--max-passes", "3"},
+        {"--beta", "much"},
+        {"--beta", "nan"},
+        {"--method", "best"},
+    };
+    for (const auto& options : wrong) {
+        std::vector<std::string> arguments{"untangle", tangled, "-o", out};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProcessResult result = cli(arguments);
+        EXPECT_EQ(result.status, 2) << options.back();
+        EXPECT_NE(result.errors.find("--"), std::string::npos);
+        EXPECT_FALSE(exists(out));
+    }
+}
+
+TEST_F(CommandLine, UntangleByUnsignedAngles) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
+    const ProcessResult result =
+        cli({"untangle", tangled, "-o", out, "--method", "unsigned-angle", "--json", "--trace", trace});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["method"], "unsigned-angle");
+    EXPECT_EQ(json["stopped"], "untangled");
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 30);
+    EXPECT_GT(json["scaled_jacobian"]["min"].get<double>(), 0.1);
+    expect_same_boundary(tangled, out);
+    EXPECT_NE(read(trace).find("bfgs_step"), std::string::npos);
+    // To the letter, the sum of the angles is flat here.
+    const ProcessResult literal =
+        cli({"untangle", tangled, "-o", out, "--method", "unsigned-angle", "--literal", "--json"});
+    EXPECT_EQ(literal.status, 3);
+    EXPECT_EQ(Json::parse(literal.output)["scaled_jacobian"]["invalid"], 2);
+}
+
+TEST_F(CommandLine, UntangleChoosesBetaItself) {
+    make_tangled();
+    const std::string out = folder / "valid.msh", same = folder / "same.msh";
+    const ProcessResult result = cli({"untangle", tangled, "-o", out, "--beta", "auto", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["method"], "signed-angle");
+    EXPECT_EQ(json["beta"], "auto");
+    EXPECT_GT(json["scaled_jacobian"]["min"].get<double>(), 0.5);
+    expect_same_boundary(tangled, out);
+    EXPECT_EQ(cli({"untangle", tangled, "-o", same, "--method", "signed-angle"}).status, 0);
+    EXPECT_EQ(read(same), read(out));
 }
 
 TEST_F(CommandLine, UntangleWithBetaGoesBySignedAngles) {
@@ -219,9 +276,9 @@ TEST_F(CommandLine, UntangleListsWhatCannotBeMended) {
 }
 
 TEST_F(CommandLine, UntangleTellsWhichElementsItCannotTake) {
-    const std::string mesh = folder / "quads.msh";
-    write_mesh(mesh, quad_mesh(2, 2));
-    expect_bad_input({"untangle", mesh, "-o", folder / "out.msh"}, "quadrilateral");
+    const std::string mesh = folder / "pyramids.msh";
+    write_mesh(mesh, pyramid_mesh(1));
+    expect_bad_input({"untangle", mesh, "-o", folder / "out.msh"}, "pyramid");
     EXPECT_FALSE(exists(folder / "out.msh"));
 }
 
