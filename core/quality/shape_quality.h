@@ -6,16 +6,17 @@
 namespace curvewright {
 
 /// Worst mean ratio of every element against its ideal: eta = d det(T)^(2/d) / |T|_F^2 with T = J W^-1, J the Jacobian
-/// of the element map and W that of the ideal element; 1 = similar to the ideal, <= 0 = tangled. The scaled Jacobian
-/// tells how evenly an element is stretched, this tells whether it is a sliver. Sampled on a lattice of degree 3 p
-/// (Knupp, "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23, 2001).
+/// of the element map and W that of the ideal element at the same point; 1 = similar to the ideal, <= 0 = tangled. The
+/// scaled Jacobian tells how evenly an element is stretched, this tells whether it is a sliver. Sampled on a lattice of
+/// degree 3 p, of hexahedra and prisms at most 12 (Knupp, "Algebraic mesh quality metrics", SIAM J. Sci. Comput. 23,
+/// 2001).
 struct ShapeSummary {
     double min = 1.0, mean = 1.0;
 };
 
 /// ideal: nodes × 3; the ideal of an element is the straight-sided element on its corners there.
-/// An ideal without volume is similar to nothing: eta = 0. Triangles and tetrahedra; throws Unsupported like
-/// assess_quality.
+/// Where an ideal has no volume, or a quadrilateral, hexahedron or prism is folded, it is similar to nothing: eta = 0.
+/// Throws Unsupported like assess_quality.
 ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
 
 }  // namespace curvewright

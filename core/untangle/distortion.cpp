@@ -14,6 +14,8 @@
 #include "core/base/parallel.h"
 #include "core/basis/lagrange.h"
 #include "core/basis/node_ordering.h"
+#include "core/basis/quadrature.h"
+#include "core/quality/jacobian_bounds.h"
 
 namespace curvewright {
 namespace {
@@ -30,18 +32,44 @@ RowMatrix gradient_table(ElementType type, const Eigen::MatrixX3d& points) {
     return table;
 }
 
-/// Samples on the lattice of the degree that J has (as far as the tables go): it includes the corners, where curved
-/// simplices tangle first.
-const RowMatrix& lattice_gradients(ElementType type) {
+/// Degree of the lattice of samples that an element begins with; it includes the corners, where curved elements tangle
+/// first. In 2D and on tetrahedra that of J, on hexahedra and prisms less, as J has a degree there (3 p - 1 in each
+/// direction) that would cost too much; what the samples miss is added when a certificate finds it.
+int lattice_degree(ElementType type) {
+    const int p = type.order;
+    const int degree = is_simplex(type.shape)               ? dimension(type.shape) * (p - 1)
+                       : type.shape == Shape::quadrilateral ? 2 * p - 1
+                                                            : 2 * p;
+    return std::clamp(degree, 1, max_order);
+}
+
+struct Lattice {
+    RowMatrix gradients;        ///< of the element's shape functions
+    RowMatrix ideal_gradients;  ///< of the straight-sided element's
+    double measure = 1.0;       ///< of the reference element
+};
+
+const Lattice& lattice_of(ElementType type) {
     static std::mutex mutex;
-    static std::map<ElementType, RowMatrix> tables;
+    static std::map<ElementType, Lattice> tables;
     const std::lock_guard lock(mutex);
     const auto [entry, is_new] = tables.try_emplace(type);
     if (is_new) {
-        const int degree = std::clamp(dimension(type.shape) * (type.order - 1), 1, max_order);
-        entry->second = gradient_table(type, reference_nodes({type.shape, degree}));
+        const Eigen::MatrixX3d points = reference_nodes({type.shape, lattice_degree(type)});
+        entry->second = {gradient_table(type, points), gradient_table({type.shape, 1}, points),
+                         quadrature(type.shape, 0).weights.sum()};
     }
     return entry->second;
+}
+
+/// Corners of a regular element of measure 1: edges of one length and, but for triangles, right angles.
+Eigen::MatrixX3d regular_corners(Shape shape) {
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();  // images of the reference axes
+    if (shape == Shape::triangle || shape == Shape::prism) axes.row(1) << 0.5, std::sqrt(0.75), 0.0;
+    if (shape == Shape::tetrahedron)
+        axes << 1.0, 0.0, 0.0, 0.5, std::sqrt(0.75), 0.0, 0.5, std::sqrt(1.0 / 12.0), std::sqrt(2.0 / 3.0);
+    const double measure = axes.determinant() * quadrature(shape, 0).weights.sum();
+    return reference_nodes({shape, 1}) * axes / std::pow(measure, 1.0 / dimension(shape));
 }
 
 template <int Dim>
@@ -153,15 +181,29 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         *table << *element.gradients, extra;
         element.own_gradients = table;
         element.gradients = table.get();
+        if (!element.is_ideal_affine())
+            add_ideals(element, gradient_table({element.type.shape, 1}, points), element.ideal_corners);
     }
 
   private:
+    using Tall = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
+
+    /// The Jacobian W of the ideal element at a sample.
+    struct Ideal {
+        Square<Dim> inverse = Square<Dim>::Identity();  ///< W^-1, in units of the patch's size
+        double determinant = 1.0;                       ///< |det W|, likewise
+    };
     struct Element {
         ElementType type;
         const RowMatrix* gradients = nullptr;
         std::shared_ptr<RowMatrix> own_gradients;
-        Square<Dim> inverse_ideal = Square<Dim>::Identity();  ///< W^-1, in units of the patch's size
-        std::size_t first = 0;                                ///< of its nodes in node_of_ and start_
+        std::vector<Ideal> ideals;  ///< one per sample, or a single one where W is the same everywhere
+        Tall ideal_corners;         ///< in units of the patch's size; not kept where W is the same everywhere
+        std::size_t first = 0;      ///< of its nodes in variable_of_ and start_
+        bool is_ideal_affine() const { return ideals.size() == 1; }
+        const Ideal& ideal(Eigen::Index sample) const {
+            return ideals[is_ideal_affine() ? 0 : static_cast<std::size_t>(sample)];
+        }
     };
     struct Use {
         std::size_t element, position;
@@ -171,7 +213,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         for (const Index index : patch.elements) {
             Element element;
             element.type = topology.element_type(index);
-            element.gradients = &lattice_gradients(element.type);
+            element.gradients = &lattice_of(element.type).gradients;
             element.first = variable_of_.size();
             for (const Index node : topology.element_nodes(index)) {
                 const auto found = std::lower_bound(patch.nodes.begin(), patch.nodes.end(), node);
@@ -185,29 +227,61 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
     }
 
     void set_ideals(const MeshTopology& topology, const Coordinates& ideal, double sign) {
-        std::vector<Square<Dim>> ideals(elements_.size());
         double volume = 0.0;
         for (std::size_t e = 0; e < elements_.size(); ++e) {
+            Element& element = elements_[e];
+            const Lattice& lattice = lattice_of(element.type);
             const auto nodes = topology.element_nodes(patch.elements[e]);
-            for (int k = 0; k < Dim; ++k)
-                ideals[e].row(k) =
-                    (ideal.row(nodes[static_cast<std::size_t>(k) + 1]) - ideal.row(nodes[0])).template head<Dim>() /
-                    size;
-            volume += std::abs(ideals[e].determinant());
+            element.ideal_corners.resize(corner_count(element.type.shape), Dim);
+            for (Eigen::Index c = 0; c < element.ideal_corners.rows(); ++c)
+                element.ideal_corners.row(c) =
+                    (ideal.row(nodes[static_cast<std::size_t>(c)]) - ideal.row(nodes[0])).template head<Dim>() / size;
+            const Tall w = lattice.ideal_gradients * element.ideal_corners;
+            const Eigen::Index samples = w.rows() / Dim;
+            double sum = 0.0;
+            for (Eigen::Index q = 0; q < samples; ++q)
+                sum += Square<Dim>(w.template middleRows<Dim>(q * Dim)).determinant();
+            volume += lattice.measure * std::abs(sum) / static_cast<double>(samples);
         }
         volume /= static_cast<double>(std::max<std::size_t>(1, elements_.size()));
-        for (std::size_t e = 0; e < elements_.size(); ++e) {
-            Square<Dim>& w = ideals[e];
-            const double extent = w.cwiseAbs().maxCoeff();
-            if (!(sign * w.determinant() > 1e-9 * std::pow(extent, Dim))) {
-                if constexpr (Dim == 2)
-                    w << 1.0, 0.0, 0.5, std::sqrt(0.75);
-                else
-                    w << 1.0, 0.0, 0.0, 0.5, std::sqrt(0.75), 0.0, 0.5, std::sqrt(1.0 / 12.0), std::sqrt(2.0 / 3.0);
-                w *= std::pow(volume / w.determinant(), 1.0 / Dim);
-                if (sign < 0.0) w.row(0).swap(w.row(1));
+        for (Element& element : elements_) {
+            const RowMatrix& gradients = lattice_of(element.type).ideal_gradients;
+            const bool is_simplicial = is_simplex(element.type.shape);
+            const bool is_own = is_usable(element, sign);
+            if (!is_own) {
+                element.ideal_corners =
+                    std::pow(volume, 1.0 / Dim) * regular_corners(element.type.shape).template leftCols<Dim>();
+                if (sign < 0.0) element.ideal_corners.col(0) *= -1.0;
             }
-            elements_[e].inverse_ideal = w.inverse();
+            if (is_own && !is_simplicial) {
+                add_ideals(element, gradients, element.ideal_corners);
+            } else {
+                add_ideals(element, gradients.topRows(Dim), element.ideal_corners);
+                element.ideal_corners.resize(0, Dim);
+            }
+        }
+    }
+
+    /// Whether the ideal element has volume of the given sign everywhere: at the samples with some margin, and between
+    /// them, where more samples may come, by certificate.
+    static bool is_usable(const Element& element, double sign) {
+        const Tall w = lattice_of(element.type).ideal_gradients * element.ideal_corners;
+        const double extent = w.cwiseAbs().maxCoeff();
+        for (Eigen::Index q = 0; q < w.rows() / Dim; ++q)
+            if (!(sign * Square<Dim>(w.template middleRows<Dim>(q * Dim)).determinant() > 1e-9 * std::pow(extent, Dim)))
+                return false;
+        if (is_simplex(element.type.shape)) return true;
+        Eigen::MatrixX3d corners = Eigen::MatrixX3d::Zero(element.ideal_corners.rows(), 3);
+        corners.leftCols<Dim>() = element.ideal_corners;
+        return JacobianBounds({element.type.shape, 1}).bound(corners, sign, {}).validity == Validity::valid;
+    }
+
+    /// gradients: those of the straight-sided element at further samples.
+    static void add_ideals(Element& element, const RowMatrix& gradients, const Tall& corners) {
+        const Tall w = gradients * corners;
+        for (Eigen::Index q = 0; q < w.rows() / Dim; ++q) {
+            const Square<Dim> at_sample = w.template middleRows<Dim>(q * Dim);
+            element.ideals.push_back({at_sample.inverse(), std::abs(at_sample.determinant())});
         }
     }
 
@@ -232,7 +306,6 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         thread_local std::vector<double> buffer;
         const std::size_t rows = static_cast<std::size_t>(table.rows());
         buffer.resize(static_cast<std::size_t>(nodes) * Dim + 3 * rows * Dim + 3 * static_cast<std::size_t>(samples));
-        using Tall = Eigen::Matrix<double, Eigen::Dynamic, Dim, Eigen::RowMajor>;
         Eigen::Map<Tall> x(buffer.data(), nodes, Dim);
         Eigen::Map<Tall> jacobian(x.data() + nodes * Dim, table.rows(), Dim);
         Eigen::Map<Tall> energy_force(jacobian.data() + table.rows() * Dim, table.rows(), Dim);
@@ -251,7 +324,8 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         const double share = 1.0 / static_cast<double>(samples);
         double energy = 0.0, least = std::numeric_limits<double>::infinity();
         for (Eigen::Index q = 0; q < samples; ++q) {
-            const Square<Dim> t = element.inverse_ideal * jacobian.template middleRows<Dim>(q * Dim);
+            const Square<Dim>& inverse = element.ideal(q).inverse;
+            const Square<Dim> t = inverse * jacobian.template middleRows<Dim>(q * Dim);
             const Square<Dim> c = cofactors<Dim>(t);
             const double d = t.row(0).dot(c.row(0)), norm = t.squaredNorm();
             const double root = std::sqrt(options.eps * options.eps + d * d);
@@ -264,8 +338,8 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             const double by_d = -(1.0 - options.theta) * shape * (2.0 / Dim) / chi * chi_slope +
                                 options.theta * (d / chi - volume / chi * chi_slope);
             const Square<Dim> by_t = (2.0 * (1.0 - options.theta) * power / Dim) * t + by_d * c;
-            energy_force.template middleRows<Dim>(q * Dim).noalias() = share * element.inverse_ideal.transpose() * by_t;
-            cofactor.template middleRows<Dim>(q * Dim).noalias() = element.inverse_ideal.transpose() * c;
+            energy_force.template middleRows<Dim>(q * Dim).noalias() = share * inverse.transpose() * by_t;
+            cofactor.template middleRows<Dim>(q * Dim).noalias() = inverse.transpose() * c;
             determinant[q] = d;
             least = std::min(least, d);
         }
@@ -275,7 +349,17 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             table.transpose() * energy_force;
         if (!(options.sharpness > 0.0)) return;
 
-        // Evenness: soft minimum over soft maximum of the determinants divided by their mean.
+        // Evenness: soft minimum over soft maximum of det J divided by its mean. Where W is constant D will do for det
+        // J.
+        if (!element.is_ideal_affine()) {
+            least = std::numeric_limits<double>::infinity();
+            for (Eigen::Index q = 0; q < samples; ++q) {
+                const double ideal = element.ideal(q).determinant;
+                determinant[q] *= ideal;
+                cofactor.template middleRows<Dim>(q * Dim) *= ideal;
+                least = std::min(least, determinant[q]);
+            }
+        }
         double mean = 0.0, highest = -std::numeric_limits<double>::infinity();
         for (Eigen::Index q = 0; q < samples; ++q) {
             mean += determinant[q] * share;
@@ -322,9 +406,9 @@ PatchObjective::PatchObjective(const MeshTopology& topology, const Coordinates& 
                                double orientation_sign, FreePatch patch) {
     for (const Index element : patch.elements) {
         const ElementType type = topology.element_type(element);
-        if (type.shape != Shape::triangle && type.shape != Shape::tetrahedron)
+        if (simplex_factors(type.shape).empty())
             throw Unsupported("The distortion of a " + name(type) +
-                              " is not measured; expected triangles or tetrahedra.");
+                              " is not measured; expected triangles, quadrilaterals, tetrahedra, hexahedra or prisms.");
     }
     if (topology.dimension() == 2)
         implementation_ = std::make_unique<PatchObjectiveOf<2>>(topology, x, ideal, orientation_sign, std::move(patch));

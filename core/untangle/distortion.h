@@ -13,7 +13,7 @@
 namespace curvewright {
 
 /// Measures of how elements are distorted against their ideal, sampled at points of the reference element:
-/// T = J W^-1 with J the Jacobian of the element map and W that of the ideal element, D = det T.
+/// T = J W^-1 with J the Jacobian of the element map and W that of the ideal element at the same point, D = det T.
 ///
 /// Energy of an element: mean over its samples of
 ///     (1 - theta) |T|_F^2 / (dim chi(D)^(2/dim)) + theta (D^2 + 1) / (2 chi(D)),   chi(D) = (D + sqrt(eps^2 + D^2)) /
@@ -21,7 +21,7 @@ namespace curvewright {
 /// (Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov, "Foldover-free maps in 50 lines of code", ACM Trans. Graph.
 /// 40, 2021). It is 1 for an element that is its ideal moved, and finite for tangled elements as long as eps > 0.
 ///
-/// Evenness of an element: soft minimum over soft maximum of its D, a smooth stand-in for min J / max J.
+/// Evenness of an element: soft minimum over soft maximum of its det J, a smooth stand-in for min J / max J.
 struct DistortionOptions {
     double theta = 0.1;
     double eps = 1e-3;           ///< of chi
@@ -42,8 +42,9 @@ struct FreePatch {
 class PatchObjective {
   public:
     /// x: positions, nodes × 3; read for the patch's elements only. ideal: nodes × 3; the ideal of an element is the
-    /// straight-sided element on its corners there, or, where that has no volume of the given sign, a regular simplex
-    /// of the patch's mean volume. Triangles and tetrahedra.
+    /// straight-sided element on its corners there (multilinear, if it is no simplex), or, where that does not have
+    /// volume of the given sign everywhere, a regular element of the patch's mean volume. Triangles, quadrilaterals,
+    /// tetrahedra, hexahedra and prisms; throws Unsupported for others.
     PatchObjective(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
                    double orientation_sign, FreePatch patch);
     ~PatchObjective();

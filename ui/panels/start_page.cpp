@@ -160,7 +160,7 @@ QWidget* StartPage::make_drop_zone() {
     text->setSpacing(4);
     text->addWidget(make_label(tr("Drop a mesh here"), "title"));
     text->addWidget(
-        make_label(tr("Gmsh .msh and .msh.gz, VTK .vtu and .vtk: triangles and tetrahedra of order 1 to 10"), "muted"));
+        make_label(tr("Gmsh .msh and .msh.gz, VTK .vtu and .vtk: meshes of order 1 to 10, in 2D and 3D"), "muted"));
     auto* layout = new QHBoxLayout(drop_zone_);
     layout->setContentsMargins(24, 24, 24, 24);
     layout->setSpacing(16);

@@ -24,7 +24,7 @@ void UntanglePanel::make_fields() {
     method_ =
         make_choice("method", tr("How interior nodes move until no element is tangled; the boundary stays."),
                     {{tr("Guaranteed"), int(UntangleMethod::guaranteed),
-                      tr("triangles and tetrahedra of any order. Goes on until every element is proved valid.")},
+                      tr("all elements but pyramids, any order. Goes on until every element is proved valid.")},
                      {tr("Signed angles"), int(UntangleMethod::signed_angles),
                       tr("triangles of order 2 and 3, edge by edge. Corners stay; not every mesh becomes valid.")},
                      {tr("Unsigned angles"), int(UntangleMethod::unsigned_angles),
