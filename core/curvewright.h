@@ -34,4 +34,5 @@
 #include "core/untangle/signed_angles.h"
 #include "core/warp/incremental.h"
 #include "core/warp/response.h"
+#include "core/warp/straight_start.h"
 #include "core/warp/warp.h"

@@ -12,6 +12,7 @@
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/untangle/trace.h"
+#include "core/warp/straight_start.h"
 
 namespace curvewright::cli {
 namespace {
@@ -22,6 +23,7 @@ struct Options {
     std::string method;  ///< as given; empty = guaranteed, or signed-angle where its beta is given
     bool has_beta = false;
     SignedAngleOptions signed_angles;
+    std::optional<Weighting> warp_first;
     GuaranteedOptions guaranteed;
 
     bool is_guaranteed() const { return method == "guaranteed" || (method.empty() && !has_beta); }
@@ -62,14 +64,23 @@ Json shape_json(const ShapeSummary& shape) {
 Outcome run_signed_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
                           const TaskContext& context, Json& timings) {
     const Stopwatch watch;
-    UntangleResult result = untangle_signed_angles(input, options.signed_angles, observer, context);
-    timings["untangle"] = watch.seconds();
+    CurvedMesh start = input;
+    if (options.warp_first) {
+        WarpOptions warp;
+        warp.weighting = *options.warp_first;
+        start = input.with_coordinates(warp_from_straight(input, warp, context).coordinates);
+        timings["warp"] = watch.seconds();
+    }
+    const Stopwatch untangle_watch;
+    UntangleResult result = untangle_signed_angles(start, options.signed_angles, observer, context);
+    timings["untangle"] = untangle_watch.seconds();
     const bool is_automatic = options.signed_angles.beta_choice == BetaChoice::automatic;
     Outcome outcome;
     outcome.details = {{"method", "signed-angle"},
                        {"beta", is_automatic ? Json("auto") : Json(options.signed_angles.beta)},
                        {"passes", result.passes},
                        {"stopped", to_string(result.reason)}};
+    if (options.warp_first) outcome.details["warped_first"] = to_string(*options.warp_first);
     outcome.text = fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
                                to_string(result.reason), watch.seconds());
     outcome.coordinates = std::move(result.coordinates);
@@ -175,6 +186,16 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         [options](std::int64_t) { options->signed_angles.displacement = DisplacementUnit::edge_length; },
         "Measure displacements in lengths of the node's edge, so that beta does not depend on the unit of length "
         "(signed-angle; always so with --beta auto)");
+    command
+        ->add_option_function<std::string>(
+            "--warp-first",
+            [options](const std::string& weights) {
+                for (const Weighting weighting : {Weighting::convex, Weighting::affine, Weighting::elastic})
+                    if (weights == to_string(weighting)) options->warp_first = weighting;
+            },
+            "Begin with the interior nodes, corners included, where these weights of the straight-sided mesh put them "
+            "(signed-angle, which moves high-order nodes only)")
+        ->check(CLI::IsMember({"convex", "affine", "elastic"}));
     command->add_option("--max-passes", options->signed_angles.max_passes, "Passes at most")
         ->check(CLI::Range(1, 1000000))
         ->capture_default_str();
