@@ -32,6 +32,7 @@
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/observer.h"
 #include "core/untangle/signed_angles.h"
+#include "core/untangle/unsigned_angles.h"
 #include "core/warp/incremental.h"
 #include "core/warp/response.h"
 #include "core/warp/straight_start.h"

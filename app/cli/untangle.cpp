@@ -25,6 +25,7 @@ struct Options {
     SignedAngleOptions signed_angles;
     std::optional<Weighting> warp_first;
     GuaranteedOptions guaranteed;
+    std::vector<std::string> boundary;  ///< rules as given
 
     bool is_guaranteed() const { return method == "guaranteed" || (method.empty() && !has_beta); }
 };
@@ -89,14 +90,18 @@ Outcome run_signed_angles(const CurvedMesh& input, const Options& options, Untan
 
 Outcome run_guaranteed(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
                        const TaskContext& context, Json& timings) {
-    GuaranteedResult result = untangle_guaranteed(input, options.guaranteed, observer, context);
+    GuaranteedOptions method = options.guaranteed;
+    for (const std::string& rule : options.boundary) method.boundary.add(rule);
+    GuaranteedResult result = untangle_guaranteed(input, method, observer, context);
     timings["untangle"] = result.valid_seconds;
     timings["improve"] = result.improve_seconds;
     Outcome outcome;
     Json unmended = Json::array();
     for (const UnmendedElement& element : result.unmended)
-        unmended.push_back(
-            {{"element", input.topology().element_tag(element.element).value}, {"reason", element.reason}});
+        unmended.push_back({{"element", input.topology().element_tag(element.element).value},
+                            {"reason", element.reason},
+                            {"proved", element.is_proved},
+                            {"bound", element.bound}});
     outcome.text = fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", result.valid_seconds,
                                result.improve_seconds);
     constexpr std::size_t listed = 5;
@@ -110,12 +115,21 @@ Outcome run_guaranteed(const CurvedMesh& input, const Options& options, Untangle
                        {"rounds", result.rounds},
                        {"stopped", to_string(result.reason)},
                        {"unmended", std::move(unmended)}};
+    if (!method.boundary.is_all_fixed()) {
+        outcome.details["boundary"] = {{"sliding_nodes", result.sliding_nodes},
+                                       {"free_nodes", result.free_nodes},
+                                       {"largest_distance", result.largest_boundary_distance}};
+        outcome.text += fmt::format("\nboundary: {} sliding nodes, {} free ones; at most {:.3g} away from the input's",
+                                    result.sliding_nodes, result.free_nodes, result.largest_boundary_distance);
+    }
     outcome.coordinates = std::move(result.coordinates);
     return outcome;
 }
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
+    if (!options.boundary.empty() && !options.is_guaranteed())
+        throw InvalidInput("Boundary rules are for the guaranteed method; the others keep the boundary as it is.");
     const Stopwatch watch;
     Json timings = Json::object();
     const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
@@ -212,6 +226,17 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
             return target > 0.0 && target <= 1.0 ? std::string() : "the target must be greater than 0 and at most 1";
         })
         ->capture_default_str();
+    command
+        ->add_option(
+            "--boundary", options->boundary,
+            "What boundary nodes may do: fixed (default), slide along the boundary as it was read, or free; for all or "
+            "for a group; may be given several times (guaranteed)")
+        ->type_name("MODE|GROUP=MODE");
+    command
+        ->add_option("--shape-floor", options->guaranteed.shape_floor,
+                     "Worst mean ratio that improving may leave, where that can be had; 0 = none (guaranteed)")
+        ->type_name("F")
+        ->check(CLI::Range(0.0, 0.999));
     command->add_flag("!--valid-only", options->guaranteed.improves,
                       "Stop as soon as all elements are valid (guaranteed)");
     set_action(*command, invocation, options, run);

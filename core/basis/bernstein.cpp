@@ -1,6 +1,8 @@
 #include "core/basis/bernstein.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -54,21 +56,91 @@ const BernsteinSimplex& BernsteinSimplex::get(int dimension, int degree) {
     return *entry;
 }
 
-void BernsteinSimplex::bisect(int a, int b, const double* coefficients, double* near_a, double* near_b) const {
-    if (a > b) return bisect(b, a, coefficients, near_b, near_a);
-    constexpr int longest = 3 * max_order;
-    double work[longest + 1];
+void BernsteinSimplex::bisect(int a, int b, int count, const double* coefficients, double* near_a,
+                              double* near_b) const {
+    if (a > b) return bisect(b, a, count, coefficients, near_b, near_a);
+    const auto stride = static_cast<std::ptrdiff_t>(count);
     for (const auto& line : lines_[a][b]) {
         const int last = static_cast<int>(line.size()) - 1;
-        for (int t = 0; t <= last; ++t) work[t] = coefficients[line[t]];
-        near_a[line[0]] = work[0];
-        near_b[line[last]] = work[last];
+        if (count == 1) {
+            constexpr int longest = 3 * max_order;
+            double work[longest + 1];
+            for (int t = 0; t <= last; ++t) work[t] = coefficients[line[t]];
+            near_a[line[0]] = work[0];
+            near_b[line[last]] = work[last];
+            for (int round = 1; round <= last; ++round) {
+                for (int t = 0; t <= last - round; ++t) work[t] = 0.5 * (work[t] + work[t + 1]);
+                near_a[line[round]] = work[0];
+                near_b[line[last - round]] = work[last - round];
+            }
+            continue;
+        }
+        // near_b is the work space: what a round leaves at its far end is final.
+        for (int t = 0; t <= last; ++t) std::copy_n(coefficients + line[t] * stride, count, near_b + line[t] * stride);
+        std::copy_n(near_b + line[0] * stride, count, near_a + line[0] * stride);
         for (int round = 1; round <= last; ++round) {
-            for (int t = 0; t <= last - round; ++t) work[t] = 0.5 * (work[t] + work[t + 1]);
-            near_a[line[round]] = work[0];
-            near_b[line[last - round]] = work[last - round];
+            for (int t = 0; t <= last - round; ++t) {
+                double* here = near_b + line[t] * stride;
+                const double* next = near_b + line[t + 1] * stride;
+                for (int i = 0; i < count; ++i) here[i] = 0.5 * (here[i] + next[i]);
+            }
+            std::copy_n(near_b + line[0] * stride, count, near_a + line[round] * stride);
         }
     }
+}
+
+BernsteinForm::BernsteinForm(const std::vector<int>& dimensions, const std::vector<int>& degrees) {
+    multinomials_ = {1.0};
+    corners_.resize(1);
+    for (std::size_t f = 0; f < dimensions.size(); ++f) {
+        const BernsteinSimplex& factor = BernsteinSimplex::get(dimensions[f], degrees[f]);
+        factors_.push_back(&factor);
+        dimension_ += dimensions[f];
+        std::vector<double> multinomials;
+        for (const double before : multinomials_)
+            for (const double own : factor.multinomials()) multinomials.push_back(before * own);
+        multinomials_ = std::move(multinomials);
+        std::vector<Corner> corners;
+        for (const Corner& before : corners_)
+            for (int vertex = 0; vertex <= dimensions[f]; ++vertex) {
+                Corner corner = before;
+                corner.position = before.position * factor.size() + factor.corners()[vertex];
+                corner.of_factor[f] = vertex;
+                corners.push_back(corner);
+            }
+        corners_ = std::move(corners);
+    }
+}
+
+void BernsteinForm::bisect(int factor, int a, int b, const double* coefficients, double* near_a, double* near_b) const {
+    int count = 1;
+    for (std::size_t f = static_cast<std::size_t>(factor) + 1; f < factors_.size(); ++f) count *= factors_[f]->size();
+    const int block = factors_[factor]->size() * count;
+    for (int first = 0; first < size(); first += block)
+        factors_[factor]->bisect(a, b, count, coefficients + first, near_a + first, near_b + first);
+}
+
+int BernsteinForm::box_size() const {
+    int result = 1;
+    for (const BernsteinSimplex* factor : factors_)
+        for (int d = 0; d < factor->dimension(); ++d) result *= factor->degree() + 1;
+    return result;
+}
+
+std::vector<int> BernsteinForm::places_in_box_of(const BernsteinForm& other) const {
+    std::vector<int> places{0};
+    for (std::size_t f = 0; f < factors_.size(); ++f) {
+        const int side = other.factors_[f]->degree() + 1;
+        std::vector<int> longer;
+        for (const int before : places)
+            for (const auto& index : factors_[f]->indices()) {
+                int place = before;
+                for (int d = factors_[f]->dimension(); d >= 1; --d) place = place * side + index[d];
+                longer.push_back(place);
+            }
+        places = std::move(longer);
+    }
+    return places;
 }
 
 const ExtendedMatrix& lagrange_to_bernstein(ElementType simplex) {

@@ -64,6 +64,31 @@ bool is_simplex(Shape shape) {
     return shape == Shape::vertex || shape == Shape::line || shape == Shape::triangle || shape == Shape::tetrahedron;
 }
 
+std::vector<int> simplex_factors(Shape shape) {
+    switch (shape) {
+        case Shape::line:
+            return {1};
+        case Shape::triangle:
+            return {2};
+        case Shape::quadrilateral:
+            return {1, 1};
+        case Shape::tetrahedron:
+            return {3};
+        case Shape::hexahedron:
+            return {1, 1, 1};
+        case Shape::prism:
+            return {2, 1};
+        case Shape::vertex:
+        case Shape::pyramid:
+            break;
+    }
+    return {};
+}
+
+Shape simplex(int dimension) {
+    return dimension == 1 ? Shape::line : dimension == 2 ? Shape::triangle : Shape::tetrahedron;
+}
+
 std::string name(Shape shape) {
     switch (shape) {
         case Shape::vertex:

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <string>
+#include <vector>
 
 namespace curvewright {
 
@@ -24,6 +25,11 @@ int corner_count(Shape shape);
 /// Number of nodes of the full (not serendipity) Lagrange element; pyramids have sum of (k+1)^2, k = 0..order.
 int node_count(ElementType type);
 bool is_simplex(Shape shape);
+/// Dimensions of the simplices whose product the reference element is, in the order of the reference axes: {3} for a
+/// tetrahedron, {2, 1} for a prism, {1, 1, 1} for a hexahedron. Empty for vertices and pyramids.
+std::vector<int> simplex_factors(Shape shape);
+/// Line, triangle or tetrahedron. dimension: 1 to 3.
+Shape simplex(int dimension);
 /// Singular English name ("triangle"); plural with count ("1 triangle", "3 prisms").
 std::string name(Shape shape);
 std::string counted_name(Shape shape, long count);

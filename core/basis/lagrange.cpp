@@ -56,28 +56,6 @@ void simplex_functions(int order, int dim, const std::vector<LatticePoint>& latt
     }
 }
 
-/// How an element's lattice is a product of simplices: the reference axes of each factor.
-std::vector<std::vector<int>> tensor_factors(Shape shape) {
-    switch (shape) {
-        case Shape::line:
-            return {{0}};
-        case Shape::triangle:
-            return {{0, 1}};
-        case Shape::tetrahedron:
-            return {{0, 1, 2}};
-        case Shape::quadrilateral:
-            return {{0}, {1}};
-        case Shape::hexahedron:
-            return {{0}, {1}, {2}};
-        case Shape::prism:
-            return {{0, 1}, {2}};
-        case Shape::vertex:
-        case Shape::pyramid:
-            break;
-    }
-    return {};
-}
-
 }  // namespace
 
 BasisTable lagrange_basis(ElementType type, const Eigen::Ref<const Eigen::MatrixX3d>& points) {
@@ -89,27 +67,26 @@ BasisTable lagrange_basis(ElementType type, const Eigen::Ref<const Eigen::Matrix
     table.values.setOnes(points.rows(), nodes);
     for (int d = 0; d < element.dimension; ++d) table.gradients[d].setOnes(points.rows(), nodes);
 
-    for (const auto& axes : tensor_factors(type.shape)) {
-        const int dim = static_cast<int>(axes.size());
+    int first_axis = 0;
+    for (const int dim : simplex_factors(type.shape)) {
         std::vector<LatticePoint> lattice(nodes);
         for (int node = 0; node < nodes; ++node)
-            for (int d = 0; d < dim; ++d) lattice[node][d] = element.lattice[node][axes[d]];
+            for (int d = 0; d < dim; ++d) lattice[node][d] = element.lattice[node][first_axis + d];
         std::vector<double> value(nodes);
         std::vector<std::array<double, 3>> gradient(nodes);
         for (Eigen::Index row = 0; row < points.rows(); ++row) {
             std::array<double, 3> x{};
-            for (int d = 0; d < dim; ++d) x[d] = points(row, axes[d]);
+            for (int d = 0; d < dim; ++d) x[d] = points(row, first_axis + d);
             simplex_functions(type.order, dim, lattice, x.data(), value.data(), gradient.data());
             for (int node = 0; node < nodes; ++node) {
                 table.values(row, node) *= value[node];
                 for (int d = 0; d < element.dimension; ++d) {
-                    double factor = value[node];
-                    for (int local = 0; local < dim; ++local)
-                        if (axes[local] == d) factor = gradient[node][local];
-                    table.gradients[d](row, node) *= factor;
+                    const bool is_own = d >= first_axis && d < first_axis + dim;
+                    table.gradients[d](row, node) *= is_own ? gradient[node][d - first_axis] : value[node];
                 }
             }
         }
+        first_axis += dim;
     }
     return table;
 }

@@ -23,9 +23,12 @@ QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& optio
     const double sign = report.orientation_sign;
     report.elements.resize(static_cast<std::size_t>(topology.element_count()));
 
-    // Pieces are of equal work only for equal orders; a piece of a high order is made small.
-    const int order = topology.order();
-    const std::size_t grain = order <= 3 ? 256 : order <= 5 ? 32 : 4;
+    // An element of many nodes is much work (as the square of their number, about): a piece of such is made small.
+    int most_nodes = 1;
+    for (const ElementBlock& block : topology.data().blocks)
+        if (dimension(block.type.shape) == topology.dimension())
+            most_nodes = std::max(most_nodes, node_count(block.type));
+    const auto grain = static_cast<std::size_t>(std::clamp(100000 / (most_nodes * most_nodes), 4, 256));
     parallel_for(report.elements.size(), grain, context, "Certifying elements",
                  [&](std::size_t begin, std::size_t end) {
                      std::optional<JacobianBounds> bounds;

@@ -31,14 +31,16 @@ struct QualityOptions {
     double tolerance = 2.5e-4;
     /// Bisections of the reference element per bound before the element is called undecided.
     int max_subdivisions = 4000;
-    /// Sign of J of a valid element, +1 or -1; not given: that of the mesh's orientation. For judging what became of a mesh,
-    /// give the sign of the original (QualityReport::orientation_sign): a mesh that was turned inside out is not valid.
+    /// Sign of J of a valid element, +1 or -1; not given: that of the mesh's orientation. For judging what became of a
+    /// mesh, give the sign of the original (QualityReport::orientation_sign): a mesh that was turned inside out is not
+    /// valid.
     std::optional<double> orientation_sign;
 };
 
 /// Certified quality of one element. J is that of the mesh's orientation: positive in a valid element.
 struct ElementQuality {
-    /// min J / |max J| from values that J attains; 1 for a straight-sided simplex, <= 0 for a tangled one.
+    /// min J / |max J| from values that J attains; 1 for a straight-sided simplex, parallelogram or parallelepiped, <=
+    /// 0 for a tangled element.
     double scaled_jacobian = 1.0;
     /// Proved bounds: min_lower <= min J <= min_upper, max_lower <= max J <= max_upper (rounding included).
     double min_lower = 0.0, min_upper = 0.0, max_lower = 0.0, max_upper = 0.0;
@@ -63,15 +65,16 @@ struct QualityReport {
     std::vector<Index> worst(std::size_t count) const;
 };
 
-/// Throws Unsupported unless every element is a triangle in a plane of constant z or a tetrahedron (named otherwise).
+/// Throws Unsupported unless the mesh consists of triangles and quadrilaterals in a plane of constant z, or of
+/// tetrahedra, hexahedra and prisms (the element is named otherwise).
 void require_assessable(const CurvedMesh& mesh);
 
-/// Orientation of a mesh of simplices. Throws like require_assessable.
+/// Orientation of a mesh. Throws like require_assessable.
 Orientation find_orientation(const CurvedMesh& mesh);
 /// +1 or -1: the sign that J is multiplied with.
 double orientation_sign(Orientation orientation, const CurvedMesh& mesh);
 
-/// The same elements numbered the other way round (J changes its sign); triangles and tetrahedra.
+/// The same elements numbered the other way round (J changes its sign). Throws like require_assessable.
 CurvedMesh flip_orientation(const CurvedMesh& mesh);
 
 /// Certified scaled Jacobian of every element: J in Bernstein-Bézier form, adaptive subdivision (Johnen, Remacle,

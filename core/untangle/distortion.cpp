@@ -337,6 +337,12 @@ PatchObjective::PatchObjective(PatchObjective&&) noexcept = default;
 const FreePatch& PatchObjective::patch() const {
     return implementation_->patch;
 }
+const Eigen::RowVector3d& PatchObjective::center() const {
+    return implementation_->center;
+}
+double PatchObjective::size() const {
+    return implementation_->size;
+}
 double PatchObjective::least_determinant() const {
     return implementation_->least_determinant;
 }

@@ -50,6 +50,9 @@ class PatchObjective {
     PatchObjective(PatchObjective&&) noexcept;
 
     const FreePatch& patch() const;
+    /// Origin and unit of the variables, in the mesh's unit of length.
+    const Eigen::RowVector3d& center() const;
+    double size() const;
     /// Positions of the free nodes in x as variables, and back. variables: (free nodes · dimension)
     Eigen::VectorXd variables(const Coordinates& x) const;
     void store(const Eigen::VectorXd& variables, Coordinates& x) const;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
 #include <fmt/format.h>
@@ -10,34 +9,26 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
-#include "core/mesh/node_elements.h"
 #include "core/optimize/lbfgs.h"
-#include "core/quality/jacobian_bounds.h"
-#include "core/quality/quality.h"
-#include "core/untangle/distortion.h"
+#include "core/untangle/constrained_objective.h"
+#include "core/untangle/patch_state.h"
+#include "core/untangle/patches.h"
+#include "core/untangle/unmendable.h"
 
 namespace curvewright {
 namespace {
 
-bool is_valid(const ElementQuality& quality) {
-    return quality.validity == Validity::valid;
+std::vector<untangle_event::Position> event_positions(const std::vector<Index>& nodes, const Coordinates& x) {
+    std::vector<untangle_event::Position> result;
+    for (const Index node : nodes) result.push_back({x(node, 0), x(node, 1), x(node, 2)});
+    return result;
 }
 
-/// How good a set of elements is: fewer that are not valid first, then a higher least scaled Jacobian.
-struct Standing {
-    Index not_valid = 0;
-    double least = std::numeric_limits<double>::infinity();
-
-    explicit Standing(const std::vector<ElementQuality>& qualities) {
-        for (const ElementQuality& quality : qualities) {
-            not_valid += is_valid(quality) ? 0 : 1;
-            least = std::min(least, quality.scaled_jacobian);
-        }
-    }
-    bool is_better_than(const Standing& other) const {
-        return not_valid != other.not_valid ? not_valid < other.not_valid : least > other.least;
-    }
-};
+/// Multiplications, but for a factor, of one evaluation of an element's objective: samples × nodes × dimensions.
+double evaluation_work(ElementType type) {
+    const int dim = dimension(type.shape), degree = std::clamp(dim * (type.order - 1), 1, max_order);
+    return static_cast<double>(node_count({type.shape, degree})) * node_count(type) * dim;
+}
 
 class Untangler {
   public:
@@ -49,279 +40,399 @@ class Untangler {
           observer_(observer),
           context_(context),
           node_elements_(elements_of_nodes(mesh.topology())) {
-        const QualityReport report = assess_quality(mesh, quality_options_, context);
-        quality_options_.orientation_sign = report.orientation_sign;
-        qualities_ = report.elements;
+        state_.coordinates = mesh.coordinates();
+        if (options.boundary.is_all_fixed()) {
+            resolve(options.boundary, topology_);  // the groups must exist all the same
+        } else {
+            boundary_.emplace(mesh, options.boundary);
+            for (Index node = 0; node < topology_.node_count(); ++node) state_.feet.push_back(boundary_->foot(node));
+        }
     }
 
     GuaranteedResult run() {
-        GuaranteedResult result;
-        result.coordinates = mesh_.coordinates();
         tell(untangle_event::Started{&mesh_});
-        const Stopwatch watch;
-        make_valid(result);
-        result.valid_seconds = watch.seconds();
-        const Stopwatch improving;
-        if (options_.improves) improve(result);
-        result.improve_seconds = improving.seconds();
-        list_unmended(result);
-        tell(untangle_event::Finished{result.reason, pass_});
-        return result;
+        try {
+            work();
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result_.reason = StopReason::cancelled;
+        }
+        if (!state_.qualities.empty()) list_unmended();
+        if (boundary_) {
+            result_.sliding_nodes = boundary_->sliding_nodes();
+            result_.free_nodes = boundary_->free_nodes();
+            result_.largest_boundary_distance = boundary_->largest_distance(state_.coordinates);
+        }
+        tell(untangle_event::Finished{result_.reason, pass_});
+        result_.coordinates = std::move(state_.coordinates);
+        return std::move(result_);
     }
 
   private:
-    /// The elements within some layers of the seeds, cut into patches that share no element, each with its free nodes.
-    std::vector<FreePatch> make_patches(const std::vector<Index>& seeds, int layers) const {
-        std::vector<int> patch_of(static_cast<std::size_t>(topology_.element_count()), -1);
-        std::vector<Index> front = seeds;
-        for (const Index element : seeds) patch_of[element] = 0;
-        for (int layer = 0; layer < layers; ++layer) {
-            std::vector<Index> next;
-            for (const Index element : front)
-                for (const Index node : topology_.element_nodes(element))
-                    for (const Index other : node_elements_.of(node))
-                        if (patch_of[other] < 0) {
-                            patch_of[other] = 0;
-                            next.push_back(other);
-                        }
-            front = std::move(next);
-        }
-        // Connected parts; 0 so far means "in some patch".
-        std::vector<FreePatch> patches;
-        std::vector<Index> stack;
-        for (Index first = 0; first < topology_.element_count(); ++first) {
-            if (patch_of[first] != 0) continue;
-            const int number = static_cast<int>(patches.size()) + 1;
-            FreePatch& patch = patches.emplace_back();
-            patch_of[first] = number;
-            stack.assign(1, first);
-            while (!stack.empty()) {
-                const Index element = stack.back();
-                stack.pop_back();
-                patch.elements.push_back(element);
-                for (const Index node : topology_.element_nodes(element))
-                    for (const Index other : node_elements_.of(node))
-                        if (patch_of[other] == 0) {
-                            patch_of[other] = number;
-                            stack.push_back(other);
-                        }
-            }
-            std::sort(patch.elements.begin(), patch.elements.end());
-            for (const Index element : patch.elements)
-                for (const Index node : topology_.element_nodes(element)) {
-                    const auto around = node_elements_.of(node);
-                    if (topology_.is_interior_node(node) &&
-                        std::all_of(around.begin(), around.end(), [&](Index e) { return patch_of[e] == number; }))
-                        patch.nodes.push_back(node);
-                }
-            std::sort(patch.nodes.begin(), patch.nodes.end());
-            patch.nodes.erase(std::unique(patch.nodes.begin(), patch.nodes.end()), patch.nodes.end());
-        }
-        std::erase_if(patches, [](const FreePatch& patch) { return patch.nodes.empty(); });
-        return patches;
+    void work() {
+        const QualityReport report = assess_quality(mesh_, quality_options_, context_);
+        quality_options_.orientation_sign = report.orientation_sign;
+        state_.qualities = report.elements;
+        impossible_.resize(state_.qualities.size());
+        for (const Index element : elements_where([](const auto& quality) { return !is_valid(quality); }))
+            impossible_[element] = find_impossibility(
+                mesh_, element, report.orientation_sign, node_elements_, [this](Index node) { return may_move(node); },
+                [this](Index other) { return impossible_[other].has_value(); });
+        const Stopwatch watch;
+        make_valid();
+        result_.valid_seconds = watch.seconds();
+        const Stopwatch improving;
+        if (options_.improves) improve();
+        result_.improve_seconds = improving.seconds();
     }
 
-    std::vector<ElementQuality> certify(const std::vector<Index>& elements, const Coordinates& x) const {
-        std::vector<ElementQuality> result(elements.size());
-        parallel_for(elements.size(), 64, context_, {}, [&](std::size_t begin, std::size_t end) {
-            std::optional<JacobianBounds> bounds;
-            std::optional<ElementType> type;
-            Eigen::MatrixX3d positions;
-            for (std::size_t i = begin; i < end; ++i) {
-                const ElementType own = topology_.element_type(elements[i]);
-                if (type != own) {
-                    bounds.emplace(own);
-                    type = own;
-                }
-                const auto nodes = topology_.element_nodes(elements[i]);
-                positions.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-                for (std::size_t n = 0; n < nodes.size(); ++n)
-                    positions.row(static_cast<Eigen::Index>(n)) = x.row(nodes[n]);
-                result[i] = bounds->bound(positions, *quality_options_.orientation_sign, quality_options_);
-            }
-        });
-        return result;
+    bool may_move(Index node) const { return boundary_ ? boundary_->may_move(node) : topology_.is_interior_node(node); }
+    std::vector<ElementQuality> certify(const FreePatch& patch) const {
+        return certify_elements(topology_, patch.elements, state_.coordinates, quality_options_, context_);
     }
-    std::vector<ElementQuality> present(const std::vector<Index>& elements) const {
-        std::vector<ElementQuality> result;
-        for (const Index element : elements) result.push_back(qualities_[element]);
-        return result;
-    }
-
-    /// Positions of the patch's free nodes, one row each.
-    static Coordinates positions(const FreePatch& patch, const Coordinates& x) {
-        Coordinates result(static_cast<Eigen::Index>(patch.nodes.size()), 3);
-        for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-            result.row(static_cast<Eigen::Index>(i)) = x.row(patch.nodes[i]);
-        return result;
-    }
-    static void restore(const FreePatch& patch, const Coordinates& positions, Coordinates& x) {
-        for (std::size_t i = 0; i < patch.nodes.size(); ++i)
-            x.row(patch.nodes[i]) = positions.row(static_cast<Eigen::Index>(i));
-    }
-
-    /// The best state of a patch that has been seen, beginning with the one it has.
-    class Best {
-      public:
-        Best(const Untangler& untangler, const FreePatch& patch, const Coordinates& x)
-            : qualities_(untangler.present(patch.elements)), standing_(qualities_), positions_(positions(patch, x)) {}
-        void offer(const FreePatch& patch, const Coordinates& x, std::vector<ElementQuality> qualities) {
-            const Standing standing(qualities);
-            if (!standing.is_better_than(standing_)) return;
-            standing_ = standing;
-            qualities_ = std::move(qualities);
-            positions_ = positions(patch, x);
-        }
-        /// Makes it the present state.
-        void take(Untangler& untangler, const FreePatch& patch, Coordinates& x) const {
-            restore(patch, positions_, x);
-            for (std::size_t i = 0; i < patch.elements.size(); ++i)
-                untangler.qualities_[patch.elements[i]] = qualities_[i];
-        }
-
-      private:
-        std::vector<ElementQuality> qualities_;
-        Standing standing_;
-        Coordinates positions_;
-    };
-
     std::vector<Index> elements_where(const auto& condition) const {
         std::vector<Index> result;
         for (Index element = 0; element < topology_.element_count(); ++element)
-            if (condition(qualities_[element])) result.push_back(element);
+            if (condition(state_.qualities[element])) result.push_back(element);
+        return result;
+    }
+    /// Not valid, and not proved to be impossible.
+    std::vector<Index> mendable() const {
+        std::vector<Index> result = elements_where([](const auto& quality) { return !is_valid(quality); });
+        std::erase_if(result, [this](Index element) { return impossible_[element].has_value(); });
         return result;
     }
 
+    ConstrainedObjective make_objective(const FreePatch& patch) const {
+        return ConstrainedObjective(PatchObjective(topology_, state_.coordinates, mesh_.coordinates(),
+                                                   *quality_options_.orientation_sign, patch),
+                                    boundary_ ? &*boundary_ : nullptr, state_.coordinates,
+                                    feet_of(patch.nodes, state_.feet));
+    }
+
+    /// work(patch, its number) for every patch; patches share no element, and the elements of a free node are all in
+    /// one patch, so each can work in place. One after the other if somebody listens.
+    template <class Work>
+    void for_each_patch(const std::vector<FreePatch>& patches, std::string_view phase, const Work& work) {
+        if (observer_) {
+            for (std::size_t i = 0; i < patches.size(); ++i) {
+                context_.check();
+                work(i);
+                if (!phase.empty())
+                    context_.report(phase, static_cast<double>(i + 1) / static_cast<double>(patches.size()));
+            }
+            return;
+        }
+        parallel_for(patches.size(), 1, context_, phase, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) work(i);
+        });
+    }
+
     /// First stage: until the certificates say valid.
-    void make_valid(GuaranteedResult& result) {
-        const auto tangled = [&] { return elements_where([](const auto& quality) { return !is_valid(quality); }); };
-        std::vector<Index> seeds = tangled();
+    void make_valid() {
+        std::vector<Index> seeds = mendable();
         const std::size_t at_start = seeds.size();
+        std::vector<FreePatch> tried;
         for (int layers = options_.layers; !seeds.empty() && layers <= options_.max_layers; layers *= 2) {
-            begin_pass();
-            const std::vector<FreePatch> patches = make_patches(seeds, layers);
-            std::vector<int> rounds(patches.size(), 0);
-            // Patches share no element, and the elements of a free node are all in one patch: each can work in place.
-            parallel_for(patches.size(), 1, context_, {}, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) rounds[i] = untangle_patch(patches[i], result.coordinates);
+            std::vector<FreePatch> patches =
+                make_patches(topology_, node_elements_, seeds, layers, [this](Index node) { return may_move(node); });
+            // A patch that could not grow would do the same again.
+            std::erase_if(patches, [&](const FreePatch& patch) {
+                return std::any_of(tried.begin(), tried.end(),
+                                   [&](const FreePatch& other) { return other.elements == patch.elements; });
             });
-            for (const int count : rounds) result.rounds += count;
-            end_pass(result.coordinates);
-            seeds = tangled();
+            if (patches.empty()) break;
+            begin_pass();
+            std::vector<int> rounds(patches.size(), 0);
+            for_each_patch(patches, {}, [&](std::size_t i) { rounds[i] = PatchRun(*this, patches[i]).untangle(); });
+            for (const int count : rounds) result_.rounds += count;
+            end_pass();
+            seeds = mendable();
+            tried = std::move(patches);
             context_.report("Making elements valid",
                             1.0 - static_cast<double>(seeds.size()) / static_cast<double>(at_start));
         }
     }
 
-    int untangle_patch(const FreePatch& patch, Coordinates& x) {
-        PatchObjective objective(topology_, x, mesh_.coordinates(), *quality_options_.orientation_sign, patch);
-        Best best(*this, patch, x);
-        Eigen::VectorXd variables = objective.variables(x), gradient;
-        DistortionOptions distortion;
-        distortion.eps = 1.0;
-        objective.evaluate(variables, distortion, gradient);
-        double least = objective.least_determinant(), best_least = least;
-        int rounds = 0, rounds_without_gain = 0;
-        constexpr double margin = 1e-3;
-        constexpr int patience = 20;
-        for (; rounds < options_.max_rounds && rounds_without_gain < patience; ++rounds) {
-            context_.check();
-            // Garanzha et al. 2021, section 3: eps follows the least determinant.
-            distortion.eps = std::sqrt(1e-6 + 0.04 * std::pow(std::min(0.0, least), 2));
-            LbfgsOptions lbfgs;
-            lbfgs.max_iterations = 10 + rounds;
-            minimize(objective, distortion, lbfgs, variables, [&] { return objective.least_determinant() <= margin; });
-            objective.evaluate(variables, distortion, gradient);
-            least = objective.least_determinant();
-            const bool gains = least > best_least + 1e-3 * std::abs(best_least);
-            best_least = std::max(best_least, least);
-            rounds_without_gain = gains ? 0 : rounds_without_gain + 1;
-            if (least <= 0.0 && rounds_without_gain < patience && rounds + 1 < options_.max_rounds) continue;
-            objective.store(variables, x);
-            const std::vector<ElementQuality> now = certify(patch.elements, x);
-            best.offer(patch, x, now);
-            if (Standing(now).not_valid == 0) {
-                ++rounds;
-                break;
-            }
-            for (std::size_t i = 0; i < now.size(); ++i)
-                if (!is_valid(now[i])) objective.add_sample(i, now[i].worst_point);
+    /// Second stage: the least scaled Jacobian of every patch rises as far as it goes.
+    void improve() {
+        std::vector<Index> seeds = elements_to_improve();
+        std::vector<FreePatch> patches = patches_to_improve(seeds);
+        const bool is_limited = work_of(patches) > options_.improve_work;
+        constexpr int max_passes = 3;
+        for (int pass = 0; pass < (is_limited ? max_passes : 1) && !patches.empty(); ++pass) {
+            if (is_limited) patches = patches_to_improve(worst_within_limit(seeds));
+            const double least_before = Standing(state_.qualities).least;
+            begin_pass();
+            context_.report("Improving", 0.0);
+            for_each_patch(patches, "Improving", [&](std::size_t i) { PatchRun(*this, patches[i]).improve(); });
+            end_pass();
+            if (Standing(state_.qualities).least <= least_before) break;
+            if (is_limited) seeds = elements_to_improve();
         }
-        best.take(*this, patch, x);
-        return rounds;
     }
 
-    /// Second stage: the least scaled Jacobian of every patch rises as far as it goes.
-    void improve(GuaranteedResult& result) {
-        const std::vector<Index> seeds = elements_where([&](const ElementQuality& quality) {
+    /// The worst first.
+    std::vector<Index> elements_to_improve() const {
+        std::vector<Index> seeds = elements_where([&](const ElementQuality& quality) {
             return is_valid(quality) && quality.scaled_jacobian < options_.target;
         });
-        std::vector<FreePatch> patches = make_patches(seeds, options_.layers);
-        // What could not be mended is not improved either: its neighbours would be bent for nothing.
-        std::erase_if(patches, [&](const FreePatch& patch) {
-            return std::any_of(patch.elements.begin(), patch.elements.end(),
-                               [&](Index element) { return !is_valid(qualities_[element]); });
+        std::stable_sort(seeds.begin(), seeds.end(), [this](Index a, Index b) {
+            return state_.qualities[a].scaled_jacobian < state_.qualities[b].scaled_jacobian;
         });
-        if (patches.empty()) return;
-        begin_pass();
-        context_.report("Improving", 0.0);
-        parallel_for(patches.size(), 1, context_, "Improving", [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) improve_patch(patches[i], result.coordinates);
-        });
-        end_pass(result.coordinates);
+        return seeds;
     }
-
-    /// goes_on() is asked after every step.
-    template <class GoesOn>
-    void minimize(PatchObjective& objective, const DistortionOptions& distortion, const LbfgsOptions& lbfgs,
-                  Eigen::VectorXd& variables, const GoesOn& goes_on) const {
-        minimize_lbfgs(
-            variables,
-            [&](const Eigen::VectorXd& v, Eigen::VectorXd& g) { return objective.evaluate(v, distortion, g); }, lbfgs,
-            [&](const Eigen::VectorXd&, double, int) {
-                context_.check();
-                return goes_on();
-            });
+    /// What could not be mended stays as it is, with its nodes: its neighbours would be bent for nothing.
+    std::vector<FreePatch> patches_to_improve(const std::vector<Index>& seeds) const {
+        return make_patches(
+            topology_, node_elements_, seeds, options_.layers, [this](Index node) { return may_move(node); },
+            [this](Index element) { return !is_valid(state_.qualities[element]); });
     }
-
-    void improve_patch(const FreePatch& patch, Coordinates& x) {
-        PatchObjective objective(topology_, x, mesh_.coordinates(), *quality_options_.orientation_sign, patch);
-        Best best(*this, patch, x);
-        Eigen::VectorXd variables = objective.variables(x);
-        DistortionOptions distortion;
-        const auto advance = [&](const LbfgsOptions& lbfgs) {
-            minimize(objective, distortion, lbfgs, variables, [] { return true; });
-            objective.store(variables, x);
-            best.offer(patch, x, certify(patch.elements, x));
-        };
-        LbfgsOptions lbfgs;
-        lbfgs.first_step = 1e-3;
-        lbfgs.max_iterations = 50;
-        advance(lbfgs);  // the energy alone: evens the patch out
-        lbfgs.max_iterations = 200;
-        lbfgs.relative_decrease = 3e-5;
-        lbfgs.history = 10;
-        distortion.energy_weight = options_.shape_weight;
-        distortion.mean_weight = options_.mean_weight;
-        for (const double sharpness : {20.0, 40.0, 80.0, 160.0, 320.0}) {
-            distortion.sharpness = sharpness;
-            advance(lbfgs);
+    double work_of(const std::vector<FreePatch>& patches) const {
+        double work = 0.0;
+        for (const FreePatch& patch : patches)
+            for (const Index element : patch.elements) work += evaluation_work(topology_.element_type(element));
+        return work;
+    }
+    /// As many of the seeds, from the first, as may be improved together; at least one.
+    std::vector<Index> worst_within_limit(const std::vector<Index>& seeds) const {
+        std::size_t fits = 1, too_many = seeds.size() + 1;
+        while (fits + 1 < too_many) {
+            const std::size_t middle = (fits + too_many) / 2;
+            const bool is_within =
+                work_of(patches_to_improve({seeds.begin(), seeds.begin() + middle})) <= options_.improve_work;
+            (is_within ? fits : too_many) = middle;
         }
-        best.take(*this, patch, x);
+        return {seeds.begin(), seeds.begin() + static_cast<std::ptrdiff_t>(std::min(fits, seeds.size()))};
     }
 
-    void list_unmended(GuaranteedResult& result) const {
+    /// The work on one patch. Whatever ends it, the patch is left in the best state seen.
+    class PatchRun {
+      public:
+        PatchRun(Untangler& untangler, const FreePatch& patch)
+            : untangler_(untangler), state_(untangler.state_), patch_(patch), best_(patch, untangler.state_) {}
+
+        /// Minimisations made.
+        int untangle() {
+            began();
+            guard([this] { untangle_rounds(); });
+            ended();
+            return round_;
+        }
+
+        void improve() {
+            began();
+            guard([this] { improve_to_floor(); });
+            ended();
+        }
+
+      private:
+        template <class Work>
+        void guard(const Work& work) {
+            try {
+                work();
+            } catch (const Cancelled&) {
+                best_.restore(state_);
+                throw;
+            }
+            best_.restore(state_);
+        }
+
+        /// Writes the positions, has them judged and keeps them if they are the best so far.
+        std::vector<ElementQuality> judge(const ConstrainedObjective& objective, double shape = 1.0) {
+            const std::vector<ElementQuality> now = untangler_.certify(patch_);
+            const std::vector<Foot> feet = objective.feet(variables_);
+            const double floor = untangler_.options_.shape_floor;
+            if (shape >= std::min(floor, worst_shape_at_start_)) best_.offer(state_.coordinates, feet, now);
+            if (above_floor_ && shape >= floor && above_floor_->offer(state_.coordinates, feet, now))
+                is_above_floor_ = true;
+            if (untangler_.observer_) {
+                const Standing standing(now);
+                const Index element = patch_.elements[standing.worst];
+                untangler_.tell(untangle_event::PatchCertified{round_, standing.not_valid, standing.least, element,
+                                                               now[standing.worst].worst_point});
+            }
+            return now;
+        }
+
+        /// goes_on() is asked after every step.
+        template <class GoesOn>
+        void minimize(ConstrainedObjective& objective, const DistortionOptions& distortion, const LbfgsOptions& lbfgs,
+                      const GoesOn& goes_on) {
+            ++round_;
+            const LbfgsResult result = minimize_lbfgs(
+                variables_,
+                [&](const Eigen::VectorXd& v, Eigen::VectorXd& g) { return objective.evaluate(v, distortion, g); },
+                lbfgs,
+                [&](const Eigen::VectorXd& v, double value, int iteration) {
+                    untangler_.context_.check();
+                    if (untangler_.observer_) {
+                        objective.store(v, state_.coordinates);
+                        untangler_.tell(untangle_event::EnergyStep{round_, iteration, value, distortion.eps,
+                                                                   distortion.sharpness, objective.least_determinant(),
+                                                                   event_positions(patch_.nodes, state_.coordinates)});
+                    }
+                    return goes_on();
+                });
+            iterations_ += result.iterations;
+        }
+
+        void untangle_rounds() {
+            FreePatch active = patch_;
+            std::erase_if(active.elements, [this](Index e) { return untangler_.impossible_[e].has_value(); });
+            ConstrainedObjective objective = untangler_.make_objective(active);
+            variables_ = objective.start();
+            Eigen::VectorXd gradient;
+            DistortionOptions distortion;
+            distortion.eps = 1.0;
+            objective_before_ = objective.evaluate(variables_, distortion, gradient);
+            double least = objective.least_determinant(), best_least = least;
+            const GuaranteedOptions& options = untangler_.options_;
+            int rounds_without_gain = 0;
+            double margin = 1e-3;
+            int failed_certificates = 0;
+            constexpr int patience = 20;
+            while (round_ < options.max_rounds && rounds_without_gain < patience) {
+                untangler_.context_.check();
+                // Garanzha et al. 2021, section 3: eps follows the least determinant.
+                distortion.eps = std::sqrt(1e-6 + 0.04 * std::pow(std::min(0.0, least), 2));
+                LbfgsOptions lbfgs;
+                lbfgs.max_iterations = 10 + round_;
+                minimize(objective, distortion, lbfgs, [&] { return objective.least_determinant() <= margin; });
+                objective.recentre(variables_);
+                objective.evaluate(variables_, distortion, gradient);
+                least = objective.least_determinant();
+                const bool gains = least > best_least + 1e-3 * std::abs(best_least);
+                best_least = std::max(best_least, least);
+                rounds_without_gain = gains ? 0 : rounds_without_gain + 1;
+                if (least <= 0.0 && rounds_without_gain < patience && round_ < options.max_rounds) continue;
+                objective.store(variables_, state_.coordinates);
+                const std::vector<ElementQuality> now = judge(objective);
+                bool is_done = true;
+                std::size_t number = 0;  // among the active elements
+                for (std::size_t i = 0; i < now.size(); ++i) {
+                    if (untangler_.impossible_[patch_.elements[i]]) continue;
+                    if (!is_valid(now[i])) {
+                        objective.add_sample(number, now[i].worst_point);
+                        is_done = false;
+                    }
+                    ++number;
+                }
+                if (is_done) break;
+                // Where positive samples keep on hiding what is not between them, a wider berth helps.
+                if (++failed_certificates > 1) margin = std::min(0.1, 2.0 * margin);
+            }
+            if (!untangler_.observer_) return;
+            distortion.eps = 1.0;
+            objective_after_ = objective.evaluate(variables_, distortion, gradient);
+        }
+
+        void improve_to_floor() {
+            double shape_weight = untangler_.options_.shape_weight;
+            if (untangler_.options_.shape_floor > 0.0) {
+                shape_.emplace(untangler_.topology_, patch_.elements, untangler_.mesh_.coordinates());
+                worst_shape_at_start_ = shape_->worst(state_.coordinates);
+                above_floor_ = best_;
+                is_above_floor_ = worst_shape_at_start_ >= untangler_.options_.shape_floor;
+            }
+            constexpr double largest_weight = 100.0, factor = 4.0;
+            while (!improve_with(shape_weight) && shape_weight < largest_weight) {
+                shape_weight *= factor;
+                best_.restore(state_);
+            }
+            if (is_above_floor_) best_ = *above_floor_;
+        }
+
+        /// Whether the shape is above the floor at the end.
+        bool improve_with(double shape_weight) {
+            ConstrainedObjective objective = untangler_.make_objective(patch_);
+            variables_ = objective.start();
+            DistortionOptions distortion;
+            double shape = 1.0;
+            const auto advance = [&](const LbfgsOptions& lbfgs) {
+                minimize(objective, distortion, lbfgs, [] { return true; });
+                objective.recentre(variables_);
+                objective.store(variables_, state_.coordinates);
+                if (shape_) shape = shape_->worst(state_.coordinates);
+                judge(objective, shape);
+            };
+            const GuaranteedOptions& options = untangler_.options_;
+            Eigen::VectorXd gradient;
+            LbfgsOptions lbfgs;
+            lbfgs.first_step = 1e-3;
+            lbfgs.max_iterations = 50;
+            if (untangler_.observer_) objective_before_ = objective.evaluate(variables_, distortion, gradient);
+            advance(lbfgs);  // the energy alone: evens the patch out
+            lbfgs.max_iterations = 200;
+            lbfgs.relative_decrease = 3e-5;
+            lbfgs.history = 10;
+            distortion.energy_weight = shape_weight;
+            distortion.mean_weight = options.mean_weight;
+            for (const double sharpness : {20.0, 40.0, 80.0, 160.0, 320.0}) {
+                distortion.sharpness = sharpness;
+                advance(lbfgs);
+            }
+            if (untangler_.observer_) objective_after_ = objective.evaluate(variables_, DistortionOptions{}, gradient);
+            return shape >= untangler_.options_.shape_floor;
+        }
+
+        void began() const {
+            if (untangler_.observer_)
+                untangler_.tell(untangle_event::PatchBegan{patch_.nodes, patch_.elements,
+                                                           event_positions(patch_.nodes, state_.coordinates)});
+        }
+        void ended() const {
+            if (!untangler_.observer_) return;
+            untangle_event::PatchEnded event;
+            event.nodes = patch_.nodes;
+            event.positions = event_positions(patch_.nodes, state_.coordinates);
+            event.iterations = iterations_;
+            event.objective_before = objective_before_;
+            event.objective_after = objective_after_;
+            event.min_scaled_jacobian_before = least_before_;
+            event.min_scaled_jacobian_after = best_.standing().least;
+            untangler_.tell(event);
+        }
+
+        Untangler& untangler_;
+        MeshState& state_;
+        const FreePatch& patch_;
+        BestOfPatch best_;                        ///< not below the floor, or the shape at the start if that is lower
+        std::optional<BestOfPatch> above_floor_;  ///< if there is a floor: not below it
+        bool is_above_floor_ = false;             ///< whether a state above the floor is known
+        std::optional<PatchShape> shape_;
+        double worst_shape_at_start_ = 1.0;
+        const double least_before_ = best_.standing().least;
+        Eigen::VectorXd variables_;
+        int round_ = 0, iterations_ = 0;
+        double objective_before_ = 0.0, objective_after_ = 0.0;
+    };
+
+    void list_unmended() {
         for (Index element = 0; element < topology_.element_count(); ++element) {
-            if (is_valid(qualities_[element])) continue;
+            const ElementQuality& quality = state_.qualities[element];
+            if (is_valid(quality)) continue;
+            if (impossible_[element]) {
+                result_.unmended.push_back({element, impossible_[element]->reason, true, impossible_[element]->bound});
+                continue;
+            }
             const auto nodes = topology_.element_nodes(element);
-            const auto free =
-                std::count_if(nodes.begin(), nodes.end(), [&](Index node) { return topology_.is_interior_node(node); });
-            result.unmended.push_back({element, free == 0
-                                                    ? std::string("all of its nodes lie on the boundary")
-                                                    : fmt::format("no valid position was found for its {} interior {}",
-                                                                  free, free == 1 ? "node" : "nodes")});
+            const auto movable = std::count_if(nodes.begin(), nodes.end(), [&](Index node) { return may_move(node); });
+            std::string reason;
+            if (result_.reason == StopReason::cancelled)
+                reason = "untangling was cancelled";
+            else if (movable == 0)
+                reason = "none of its nodes may move";
+            else
+                reason = fmt::format("no valid position was found for {} of its nodes; min J is {:.2g} of max |J|",
+                                     movable == static_cast<std::ptrdiff_t>(nodes.size())
+                                         ? std::string("any")
+                                         : fmt::format("the {} that may move", movable),
+                                     quality.scaled_jacobian);
+            result_.unmended.push_back({element, std::move(reason), false, quality.scaled_jacobian});
         }
-        if (!result.unmended.empty()) result.reason = StopReason::no_progress;
+        if (!result_.unmended.empty() && result_.reason != StopReason::cancelled)
+            result_.reason = StopReason::no_progress;
     }
 
     template <class Event>
@@ -329,15 +440,15 @@ class Untangler {
         if (observer_) observer_->on_event(event);
     }
     void begin_pass() { tell(untangle_event::PassBegan{++pass_}); }
-    void end_pass(const Coordinates& x) const {
+    void end_pass() const {
         if (!observer_) return;
         untangle_event::PassEnded event;
         event.pass = pass_;
-        event.coordinates = &x;
-        const double norm = x.norm();
-        event.relative_change = norm > 0.0 ? (x - mesh_.coordinates()).norm() / norm : 0.0;
-        event.min_scaled_jacobian = Standing(qualities_).least;
-        for (const ElementQuality& quality : qualities_) {
+        event.coordinates = &state_.coordinates;
+        const double norm = state_.coordinates.norm();
+        event.relative_change = norm > 0.0 ? (state_.coordinates - mesh_.coordinates()).norm() / norm : 0.0;
+        event.min_scaled_jacobian = Standing(state_.qualities).least;
+        for (const ElementQuality& quality : state_.qualities) {
             event.invalid += quality.validity == Validity::invalid ? 1 : 0;
             event.undecided += quality.validity == Validity::undecided ? 1 : 0;
         }
@@ -350,15 +461,15 @@ class Untangler {
     UntangleObserver* observer_;
     const TaskContext& context_;
     QualityOptions quality_options_;
-    std::vector<ElementQuality> qualities_;  ///< of the present state, per element
     const NodeElements node_elements_;
+    std::optional<BoundaryShape> boundary_;  ///< unless all of it is fixed
+    MeshState state_;
+    std::vector<std::optional<Impossibility>> impossible_;  ///< per element; looked for in those that began not valid
+    GuaranteedResult result_;
     int pass_ = 0;
 };
 
-}  // namespace
-
-GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOptions& options,
-                                     UntangleObserver* observer, const TaskContext& context) {
+void check(const GuaranteedOptions& options) {
     if (options.layers < 1 || options.max_layers < options.layers)
         throw InvalidInput("The layers around the damage must be at least 1 and at most the largest number of them.");
     if (!(options.shape_weight > 0.0 && options.shape_weight <= 100.0))
@@ -366,8 +477,21 @@ GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOpt
             fmt::format("The shape weight is {}; it must be above 0 and at most 100.", options.shape_weight));
     if (!(options.mean_weight >= 0.0 && options.mean_weight <= 100.0))
         throw InvalidInput(fmt::format("The mean weight is {}; it must be from 0 to 100.", options.mean_weight));
+    if (!(options.improve_work > 0.0))
+        throw InvalidInput(fmt::format("The work of improving is {}; it must be above 0.", options.improve_work));
     if (!(options.target > 0.0 && options.target <= 1.0))
         throw InvalidInput(fmt::format("The target is {}; it must be above 0 and at most 1.", options.target));
+    if (!(options.shape_floor >= 0.0 && options.shape_floor < 1.0))
+        throw InvalidInput(
+            fmt::format("The shape floor is {}; it must be at least 0 and below 1.", options.shape_floor));
+}
+
+}  // namespace
+
+GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOptions& options,
+                                     UntangleObserver* observer, const TaskContext& context) {
+    check(options);
+    require_assessable(mesh);
     return Untangler(mesh, options, observer, context).run();
 }
 

@@ -96,21 +96,21 @@ std::vector<std::vector<std::size_t>> batch_in_order(const std::vector<EdgeNode>
     return batches;
 }
 
-std::vector<InteriorEdge> group_by_edge(const std::vector<EdgeNode>& edge_nodes) {
-    std::vector<InteriorEdge> edges;
+std::vector<EdgeNodes> group_by_edge(const std::vector<EdgeNode>& edge_nodes) {
+    std::vector<EdgeNodes> edges;
     std::map<std::pair<Index, int>, std::size_t> position;  // by first triangle and local edge
     for (const EdgeNode& node : edge_nodes) {
         const auto [entry, is_new] = position.try_emplace({node.triangles[0], node.local_edges[0]}, edges.size());
         if (is_new) edges.emplace_back();
         edges[entry->second].push_back(node);
     }
-    for (InteriorEdge& edge : edges)
+    for (EdgeNodes& edge : edges)
         std::sort(edge.begin(), edge.end(),
                   [](const EdgeNode& a, const EdgeNode& b) { return a.position < b.position; });
     return edges;
 }
 
-std::vector<std::vector<std::size_t>> colour_edges(const std::vector<InteriorEdge>& edges, Index element_count) {
+std::vector<std::vector<std::size_t>> colour_edges(const std::vector<EdgeNodes>& edges, Index element_count) {
     std::vector<std::vector<std::size_t>> colours;
     std::vector<unsigned> used(static_cast<std::size_t>(element_count), 0);  // bit per colour of the triangle's edges
     for (std::size_t i = 0; i < edges.size(); ++i) {

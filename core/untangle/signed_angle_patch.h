@@ -49,12 +49,12 @@ inline untangle_event::Position position_of(const Coordinates& x, Index node) {
 std::vector<std::vector<std::size_t>> batch_in_order(const std::vector<EdgeNode>& edge_nodes, Index element_count);
 
 /// The high-order nodes of one interior edge, in the order in which they lie on it.
-using InteriorEdge = std::vector<EdgeNode>;
+using EdgeNodes = std::vector<EdgeNode>;
 /// All interior edges, by ascending lowest node. edge_nodes: see find_interior_edge_nodes.
-std::vector<InteriorEdge> group_by_edge(const std::vector<EdgeNode>& edge_nodes);
+std::vector<EdgeNodes> group_by_edge(const std::vector<EdgeNode>& edge_nodes);
 
 /// Greedy colouring: edges (positions) of one colour share no triangle; at most five colours, each ascending.
-std::vector<std::vector<std::size_t>> colour_edges(const std::vector<InteriorEdge>& edges, Index element_count);
+std::vector<std::vector<std::size_t>> colour_edges(const std::vector<EdgeNodes>& edges, Index element_count);
 
 /// The method with beta chosen for every edge, see BetaChoice::automatic. The arguments were checked.
 UntangleResult untangle_with_chosen_beta(const CurvedMesh& mesh, const SignedAngleOptions& options,

@@ -3,6 +3,7 @@
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/untangle/observer.h"
+#include "core/untangle/untangle_result.h"
 
 namespace curvewright {
 
@@ -38,12 +39,6 @@ struct SignedAngleOptions {
     bool reject_worse_pass = false;
     /// Automatic choice: edges whose two triangles have at least this scaled Jacobian are left alone.
     double target = 0.5;
-};
-
-struct UntangleResult {
-    Coordinates coordinates;
-    int passes = 0;
-    StopReason reason = StopReason::converged;
 };
 
 /// Untangles curved triangles of order 2 and up by signed angles (thesis, chapter 4, Alg. 6): pass 1 moves every

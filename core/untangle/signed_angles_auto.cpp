@@ -116,7 +116,7 @@ class AutomaticUntangler {
     }
 
     /// The nodes that move with an edge: its own, then the face nodes of its triangles.
-    std::vector<Index> nodes_of(const InteriorEdge& edge) const {
+    std::vector<Index> nodes_of(const EdgeNodes& edge) const {
         std::vector<Index> nodes;
         for (const EdgeNode& node : edge) nodes.push_back(node.node);
         for (const Index triangle : edge[0].triangles)
@@ -126,7 +126,7 @@ class AutomaticUntangler {
 
     /// Moves an edge by the best of the trials, if that gains something. Reads and writes nodes of its two triangles
     /// only, so edges of one colour do not meet.
-    bool improve(const InteriorEdge& edge, JacobianBounds& bounds) {
+    bool improve(const EdgeNodes& edge, JacobianBounds& bounds) {
         const PatchQuality start = assess_patch(topology_, x_, edge[0], sign_, bounds);
         if (start.minimum >= options_.target) return false;
         const std::vector<Index> nodes = nodes_of(edge);
@@ -172,7 +172,7 @@ class AutomaticUntangler {
     }
 
     /// Iterations and objective, summed over the nodes.
-    SignedAngleMinimum move(const InteriorEdge& edge, const Trial& trial, UntangleObserver* observer) {
+    SignedAngleMinimum move(const EdgeNodes& edge, const Trial& trial, UntangleObserver* observer) {
         if (trial.straightens) straighten(edge);
         SignedAngleMinimum total;
         for (const EdgeNode& node : edge) {
@@ -189,7 +189,7 @@ class AutomaticUntangler {
         return total;
     }
 
-    void straighten(const InteriorEdge& edge) {
+    void straighten(const EdgeNodes& edge) {
         const auto nodes = topology_.element_nodes(edge[0].triangles[0]);
         const int local = edge[0].local_edges[0];
         const Eigen::RowVector2d a = x_.row(nodes[local]).head<2>(), b = x_.row(nodes[(local + 1) % 3]).head<2>();
@@ -198,7 +198,7 @@ class AutomaticUntangler {
     }
 
     /// Moves the edge by the trial, or leaves it where it is, and tells the observer.
-    void move_watched(const InteriorEdge& edge, const std::optional<Trial>& trial, const std::vector<Index>& nodes,
+    void move_watched(const EdgeNodes& edge, const std::optional<Trial>& trial, const std::vector<Index>& nodes,
                       const PatchQuality& start, JacobianBounds& bounds) {
         const auto positions = [&] {
             std::vector<event::Position> result;
@@ -228,7 +228,7 @@ class AutomaticUntangler {
     const TaskContext& context_;
     double sign_;
     FaceNodes face_nodes_;
-    std::vector<InteriorEdge> edges_;
+    std::vector<EdgeNodes> edges_;
     std::vector<std::vector<std::size_t>> colours_;
     /// Number of the colour step (clock_) at which an edge was last tried and a triangle last changed; 0 = never.
     std::vector<int> tried_, changed_;

@@ -14,6 +14,7 @@
 #include "core/io/mesh_io.h"
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
+#include "core/untangle/unsigned_angles.h"
 #include "tests/gui/gui_test_support.h"
 #include "tests/support/mesh_factory.h"
 
@@ -90,7 +91,7 @@ class UntangleTest : public QObject {
         for (const char* name : signed_angle_fields) QVERIFY2(test.shows(name), name);
         QVERIFY(method->toolTip().contains(QStringLiteral("order 2 and 3")));
         const QWidget* panel = test.find<QPushButton>("untangle_button")->parentWidget();
-        for (const char* name : {"Guaranteed", "Signed angles"}) {
+        for (const char* name : {"Guaranteed", "Signed angles", "Unsigned angles"}) {
             test.choose(name);
             QTest::qWait(20);
             QVERIFY2(panel->width() <= panel->parentWidget()->width(), name);
@@ -149,6 +150,29 @@ class UntangleTest : public QObject {
         options.reject_worse_pass = true;
         QCOMPARE(test.state().mesh->coordinates(), untangle_signed_angles(tangled, options).coordinates);
         QCOMPARE(test.document().history()->undoText(), QStringLiteral("Untangle, signed angles, β 0.7"));
+    }
+
+    void unsigned_angles_are_the_core_s() {
+        UntangleUnderTest test;
+        test.open_annulus();
+        const CurvedMesh tangled = *test.state().mesh;
+        test.choose("Unsigned angles");
+        QVERIFY(test.shows("literal") && test.shows("max_passes"));
+        for (const char* name : {"improves", "target", "beta", "reject_worse_pass"}) QVERIFY2(!test.shows(name), name);
+        QVERIFY(test.untangle_and_wait());
+        QCOMPARE(test.state().quality->summary.valid, 30);
+        UnsignedAngleOptions options;
+        options.max_passes = test.find<QSpinBox>("max_passes")->value();
+        QCOMPARE(test.state().mesh->coordinates(), untangle_unsigned_angles(tangled, options).coordinates);
+        QCOMPARE(test.document().history()->undoText(), QStringLiteral("Untangle, unsigned angles"));
+        QVERIFY2(test.note.startsWith(QStringLiteral("All elements are valid after ")), qPrintable(test.note));
+
+        // To the letter, the method is at a loss here, and says what to do.
+        test.click("tool_undo");
+        test.find<QCheckBox>("literal")->setChecked(true);
+        QVERIFY(test.untangle_and_wait());
+        QCOMPARE(test.state().quality->summary.invalid, 2);
+        QVERIFY2(test.note.contains(QStringLiteral("the guaranteed method")), qPrintable(test.note));
     }
 
     void says_which_elements_cannot_be_mended() {

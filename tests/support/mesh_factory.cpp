@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <tuple>
 
 #include <Eigen/LU>
 
@@ -20,7 +21,7 @@ class Builder {
         data_.entities.push_back({dimension, tag, {tag}, {}, {}});
     }
     void add_cell(Shape shape, int entity, const std::vector<Index>& nodes) {
-        ElementBlock& block = blocks_[{dimension(shape), entity}];
+        ElementBlock& block = blocks_[{dimension(shape), entity, shape}];
         block.type = {shape, 1};
         block.entity_tag = entity;
         block.nodes.insert(block.nodes.end(), nodes.begin(), nodes.end());
@@ -34,7 +35,7 @@ class Builder {
 
   private:
     MeshData data_;
-    std::map<std::pair<int, int>, ElementBlock> blocks_;
+    std::map<std::tuple<int, int, Shape>, ElementBlock> blocks_;
     std::int64_t next_tag_ = 101;
 };
 
@@ -153,6 +154,17 @@ CurvedMesh cube_mesh(int n, int order) {
     return elevate(builder.finish(x), order);
 }
 
+CurvedMesh bulged_square_mesh(int n, int order, double height) {
+    const CurvedMesh mesh = square_mesh(n, order);
+    Coordinates x = mesh.coordinates();
+    const std::vector<Index> bottom = mesh.topology().find_group_nodes("bottom").value();
+    for (const Index node : bottom) {
+        const double t = x(node, 0) * n - std::floor(x(node, 0) * n);
+        x(node, 1) += height * 4.0 * t * (1.0 - t);
+    }
+    return mesh.with_coordinates(std::move(x));
+}
+
 CurvedMesh quad_mesh(int n, int order) {
     Builder builder;
     add_square_boundary(builder, n);
@@ -185,6 +197,42 @@ CurvedMesh prism_mesh(int n, int order) {
         for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i) {
                 const auto c = grid.cube(i, j, k);
+                builder.add_cell(Shape::prism, 1, {c[0], c[1], c[2], c[4], c[5], c[6]});
+                builder.add_cell(Shape::prism, 1, {c[0], c[2], c[3], c[4], c[6], c[7]});
+            }
+    return elevate(builder.finish(grid.x), order);
+}
+
+CurvedMesh mixed_square_mesh(int n, int order) {
+    Builder builder;
+    add_square_boundary(builder, n);
+    builder.add_group(2, 1, "domain");
+    const auto id = [n](int i, int j) { return j * (n + 1) + i; };
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i) {
+            const Index a = id(i, j), b = id(i + 1, j), c = id(i + 1, j + 1), d = id(i, j + 1);
+            if (i < n / 2) {
+                builder.add_cell(Shape::quadrilateral, 1, {a, b, c, d});
+                continue;
+            }
+            builder.add_cell(Shape::triangle, 1, {a, b, c});
+            builder.add_cell(Shape::triangle, 1, {a, c, d});
+        }
+    return elevate(builder.finish(square_points(n)), order);
+}
+
+CurvedMesh mixed_cube_mesh(int n, int order) {
+    Builder builder;
+    builder.add_group(3, 1, "domain");
+    const Grid grid(n);
+    for (int k = 0; k < n; ++k)
+        for (int j = 0; j < n; ++j)
+            for (int i = 0; i < n; ++i) {
+                const auto c = grid.cube(i, j, k);
+                if (i < n / 2) {
+                    builder.add_cell(Shape::hexahedron, 1, {c.begin(), c.end()});
+                    continue;
+                }
                 builder.add_cell(Shape::prism, 1, {c[0], c[1], c[2], c[4], c[5], c[6]});
                 builder.add_cell(Shape::prism, 1, {c[0], c[2], c[3], c[4], c[6], c[7]});
             }
@@ -228,7 +276,7 @@ CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random
     return mesh.with_coordinates(x);
 }
 
-Eigen::MatrixX3d random_simplex(ElementType type, double amplitude, std::mt19937& random) {
+Eigen::MatrixX3d random_element(ElementType type, double amplitude, std::mt19937& random) {
     std::normal_distribution<double> normal;
     const int dim = dimension(type.shape);
     Eigen::Matrix3d map = Eigen::Matrix3d::Zero();
@@ -237,7 +285,7 @@ Eigen::MatrixX3d random_simplex(ElementType type, double amplitude, std::mt19937
             for (int c = 0; c < dim; ++c) map(r, c) = normal(random);
     } while (map.topLeftCorner(dim, dim).determinant() < 0.2);
     Eigen::MatrixX3d x = reference_nodes(type) * map.transpose();
-    if (type.order > 1)
+    if (type.order > 1 || !is_simplex(type.shape))
         for (Eigen::Index i = 0; i < x.rows(); ++i)
             for (int d = 0; d < dim; ++d) x(i, d) += amplitude / (type.order * type.order) * normal(random);
     return x;

@@ -14,6 +14,10 @@ CurvedMesh single_element(ElementType type, const Eigen::MatrixX3d& x);
 /// groups "bottom", "right", "top", "left", triangles in "domain". Node and element tags start at 11 and 101.
 CurvedMesh square_mesh(int n, int order);
 
+/// The same mesh with the edges of its bottom side bent into it by `height`; their corners stay. 2D, of order 2 and up.
+/// Enough height (some 0.1 for n = 3) tangles the triangles there.
+CurvedMesh bulged_square_mesh(int n, int order, double height);
+
 /// The unit cube as n × n × n cubes of six tetrahedra each; boundary triangles in the groups "x0", "x1", "y0", …, "z1".
 CurvedMesh cube_mesh(int n, int order);
 
@@ -26,6 +30,12 @@ CurvedMesh hex_mesh(int n, int order);
 CurvedMesh prism_mesh(int n, int order);
 CurvedMesh pyramid_mesh(int n);
 
+/// The unit square of order 1 or more whose left half consists of quadrilaterals and whose right half of triangles, and
+/// the unit cube of hexahedra on the left and prisms on the right. n: even. Groups like those of quad_mesh and
+/// hex_mesh.
+CurvedMesh mixed_square_mesh(int n, int order);
+CurvedMesh mixed_cube_mesh(int n, int order);
+
 /// The same mesh with its corners moved at random by up to ±amplitude (2D: in the plane; boundary corners too), and of
 /// the given order: general elements with straight edges.
 CurvedMesh with_shaken_corners(const CurvedMesh& linear, double amplitude, int order, std::mt19937& random);
@@ -33,7 +43,8 @@ CurvedMesh with_shaken_corners(const CurvedMesh& linear, double amplitude, int o
 /// Moves every interior node by a uniformly random vector of components within ±amplitude (2D: in the plane).
 CurvedMesh shaken(const CurvedMesh& mesh, double amplitude, std::mt19937& random);
 
-/// A random well-shaped simplex with its high-order nodes moved at random by ±amplitude / order^2.
-Eigen::MatrixX3d random_simplex(ElementType type, double amplitude, std::mt19937& random);
+/// A random well-shaped element: an affine image of the reference element whose nodes (not those of a simplex of order
+/// 1) are moved at random by about amplitude / order^2.
+Eigen::MatrixX3d random_element(ElementType type, double amplitude, std::mt19937& random);
 
 }  // namespace curvewright::testing

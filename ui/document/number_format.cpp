@@ -24,6 +24,10 @@ QString format_number(double value) {
     return value < 0.0 ? QChar(0x2212) + text : text;
 }
 
+QString short_number(double value) {
+    return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212));
+}
+
 QString format_count(long long value) {
     QString text = QLocale(QLocale::English, QLocale::UnitedStates).toString(value);
     text.replace(QLatin1Char('-'), QChar(0x2212));

@@ -6,6 +6,8 @@ namespace curvewright {
 
 /// Three significant digits with a true minus sign ("−0.122", "0.0031", "1.00"); "–" for a value that is no number.
 QString format_number(double value);
+/// At most three significant digits: "0.9", "−0.25", "12".
+QString short_number(double value);
 /// An integer with thousands separators ("1,338").
 QString format_count(long long value);
 /// The number with 17 significant digits, for the clipboard.

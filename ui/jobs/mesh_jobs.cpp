@@ -37,10 +37,6 @@ QString by_file(const QString& deformation_path) {
     return MeshJobs::tr("By %1").arg(QDir::toNativeSeparators(deformation_path));
 }
 
-QString short_number(double value) {
-    return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212));
-}
-
 QString steps_text(const IncrementOptions& increments) {
     if (increments.steps == 0) return MeshJobs::tr("automatic steps");
     return increments.steps == 1 ? MeshJobs::tr("1 step")
@@ -96,35 +92,6 @@ QString describe_warp(const WarpReport& report) {
         text += MeshJobs::tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
                     .arg(format_count(static_cast<long long>(report.degenerate.size())));
     return text;
-}
-
-QString seconds_text(double seconds) {
-    if (seconds < 0.001) return MeshJobs::tr("less than 0.001 s");
-    return MeshJobs::tr("%1 s").arg(QString::number(seconds, 'f', seconds < 0.1 ? 3 : seconds < 10.0 ? 2 : 1));
-}
-
-/// The elements that are still not valid: how many, the first and what is wrong with it.
-QString describe_unmended(const std::vector<UnmendedElement>& unmended, const MeshTopology& topology) {
-    const UnmendedElement& first = unmended.front();
-    const QString tag = QString::number(topology.element_tag(first.element).value);
-    const QString reason = QString::fromStdString(first.reason);
-    if (unmended.size() == 1)
-        return MeshJobs::tr("Element %1 cannot be mended with the boundary as it is: %2.").arg(tag, reason);
-    return MeshJobs::tr("%1 elements cannot be mended with the boundary as it is; the first is element %2: %3.")
-        .arg(format_count(static_cast<long long>(unmended.size())), tag, reason);
-}
-
-QString describe_untangling(const GuaranteedResult& result, const GuaranteedOptions& options,
-                            const MeshTopology& topology) {
-    QStringList text;
-    const QString valid = seconds_text(result.valid_seconds), improved = seconds_text(result.improve_seconds);
-    if (!result.unmended.empty())
-        text << MeshJobs::tr("Stopped after %1.").arg(valid) << describe_unmended(result.unmended, topology);
-    else if (options.improves)
-        text << MeshJobs::tr("Valid after %1; improved in %2.").arg(valid, improved);
-    else
-        text << MeshJobs::tr("Valid after %1.").arg(valid);
-    return text.join(QLatin1Char(' '));
 }
 
 Index moved_nodes(const Coordinates& a, const Coordinates& b) {
@@ -256,42 +223,10 @@ bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOpt
         });
 }
 
-bool MeshJobs::untangle(const GuaranteedOptions& options) {
-    if (!why_not_untangle(UntangleMethod::guaranteed).isEmpty()) return false;
+bool MeshJobs::untangle(const UntangleOptions& options) {
+    if (!why_not_untangle(method_of(options)).isEmpty()) return false;
     return run_step(tr("Untangling"), false, [options](const CurvedMesh& mesh, const TaskContext& context) {
-        GuaranteedResult result = untangle_guaranteed(mesh, options, nullptr, context);
-        Step step;
-        step.name = tr("Untangle, guaranteed");
-        step.details = options.improves ? tr("Elements below %1 improved afterwards").arg(short_number(options.target))
-                                        : tr("Valid only, nothing improved afterwards");
-        step.note = describe_untangling(result, options, mesh.topology());
-        step.advice = tr("Move the boundary less, or refine the mesh there.");
-        step.coordinates = std::move(result.coordinates);
-        return step;
-    });
-}
-
-bool MeshJobs::untangle(const SignedAngleOptions& options) {
-    if (!why_not_untangle(UntangleMethod::signed_angles).isEmpty()) return false;
-    return run_step(tr("Untangling"), false, [options](const CurvedMesh& mesh, const TaskContext& context) {
-        UntangleResult result = untangle_signed_angles(mesh, options, nullptr, context);
-        Step step;
-        step.name = tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
-        const QString passes = result.passes == 1 ? tr("1 pass") : tr("%1 passes").arg(format_count(result.passes));
-        switch (result.reason) {
-            case StopReason::converged:
-                step.note = tr("Converged after %1.").arg(passes);
-                break;
-            case StopReason::pass_limit:
-                step.note = tr("Stopped at the limit of %1.").arg(passes);
-                break;
-            case StopReason::no_progress:
-                step.note = tr("Stopped after %1: the last one made things worse and was taken back.").arg(passes);
-                break;
-        }
-        step.advice = tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
-        step.coordinates = std::move(result.coordinates);
-        return step;
+        return curvewright::untangle(mesh, options, context);
     });
 }
 
@@ -337,15 +272,8 @@ QString MeshJobs::why_not_warp() const {
 
 QString MeshJobs::why_not_untangle(UntangleMethod method) const {
     if (!document_.has_mesh()) return tr("Open a mesh first.");
-    if (method == UntangleMethod::signed_angles) {
-        const MeshTopology& topology = document_.state().mesh->topology();
-        for (const ElementBlock& block : topology.blocks()) {
-            if (dimension(block.type.shape) != topology.dimension()) continue;
-            if (block.type.shape != Shape::triangle || block.type.order < 2 || block.type.order > 3)
-                return tr("Signed angles untangle curved triangles of order 2 and 3; this mesh has %1 elements.")
-                    .arg(QString::fromStdString(curvewright::name(block.type)));
-        }
-    }
+    const QString reason = curvewright::why_not_untangle(document_.state().mesh->topology(), method);
+    if (!reason.isEmpty()) return reason;
     if (!document_.state().quality) return document_.state().quality_note;
     return {};
 }

@@ -7,15 +7,12 @@
 #include <QString>
 
 #include "core/io/mesh_io.h"
-#include "core/untangle/guaranteed.h"
-#include "core/untangle/signed_angles.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/jobs/untangling.h"
 
 namespace curvewright {
-
-enum class UntangleMethod { guaranteed, signed_angles };
 
 /// What to open.
 struct OpenRequest {
@@ -49,8 +46,7 @@ class MeshJobs : public QObject {
     /// or in increments, up to the last state without tangled elements. Fails if no increment goes without them.
     bool warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments = {});
     /// Moves interior nodes until no element is tangled, by the method that the options belong to.
-    bool untangle(const GuaranteedOptions& options);
-    bool untangle(const SignedAngleOptions& options);
+    bool untangle(const UntangleOptions& options);
     /// Numbers every element the other way round.
     bool flip();
     /// Writes the present state; VTU and VTK with quality and the displacement from the mesh as opened. mark_saved: the
@@ -67,14 +63,6 @@ class MeshJobs : public QObject {
     void note(const QString& text);
 
   private:
-    /// A new state of the mesh and what to say about it.
-    struct Step {
-        Coordinates coordinates;
-        QString name;
-        QString details;  ///< with what it was made; with the note, what the history tells about it
-        QString note;
-        QString advice;  ///< what to do next if elements are tangled in the new state
-    };
     bool run_step(const QString& title, bool applies_deformation,
                   std::function<Step(const CurvedMesh&, const TaskContext&)> step);
 

@@ -13,6 +13,7 @@
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/start_page.h"
+#include "ui/panels/untangle_panel.h"
 
 namespace curvewright {
 namespace {

@@ -26,6 +26,7 @@
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/start_page.h"
+#include "ui/panels/untangle_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/panels/worst_table.h"
 

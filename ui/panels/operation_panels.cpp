@@ -18,81 +18,13 @@
 #include <QVBoxLayout>
 
 #include "ui/document/deformation_text.h"
+#include "ui/panels/form_fields.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
 namespace {
 
-QVBoxLayout* make_layout(QWidget* panel) {
-    auto* layout = new QVBoxLayout(panel);
-    layout->setContentsMargins(12, 12, 12, 8);
-    layout->setSpacing(8);
-    return layout;
-}
-
-QFormLayout* make_form() {
-    auto* form = new QFormLayout;
-    form->setHorizontalSpacing(12);
-    form->setVerticalSpacing(8);
-    form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-    form->setLabelAlignment(Qt::AlignLeft | Qt::AlignVCenter);
-    return form;
-}
-
-QDoubleSpinBox* make_number(const char* object_name, double lower, double upper, double step, int decimals,
-                            double value) {
-    auto* box = new QDoubleSpinBox;
-    box->setObjectName(QLatin1String(object_name));
-    box->setLocale(QLocale::c());
-    box->setDecimals(decimals);
-    box->setRange(lower, upper);
-    box->setSingleStep(step);
-    box->setValue(value);
-    return box;
-}
-
 enum class StepChoice { at_once, automatic, number };
-
-/// One entry of a choice, with what it is good for.
-struct Choice {
-    QString text;
-    int value;
-    QString tip;
-};
-
-/// The box's own tip is `tip` and that of the entry chosen.
-QComboBox* make_choice(const char* object_name, const QString& tip, const std::vector<Choice>& choices) {
-    auto* box = new QComboBox;
-    box->setObjectName(QLatin1String(object_name));
-    for (const Choice& choice : choices) {
-        box->addItem(choice.text, choice.value);
-        box->setItemData(box->count() - 1, choice.tip, Qt::ToolTipRole);
-    }
-    const auto show_tip = [box, tip] {
-        box->setToolTip(tip + QStringLiteral("\n\n") + box->currentText() + QStringLiteral(": ") +
-                        box->currentData(Qt::ToolTipRole).toString());
-    };
-    QObject::connect(box, &QComboBox::currentIndexChanged, box, show_tip);
-    show_tip();
-    return box;
-}
-
-template <class Enum>
-Enum chosen(const QComboBox* box) {
-    return static_cast<Enum>(box->currentData().toInt());
-}
-
-/// The labels of all rows in the width of the widest, so that the fields stay in place when rows are hidden.
-void align_labels(QFormLayout* form) {
-    std::vector<QWidget*> labels;
-    int width = 0;
-    for (int row = 0; row < form->rowCount(); ++row)
-        if (QLayoutItem* item = form->itemAt(row, QFormLayout::LabelRole)) {
-            labels.push_back(item->widget());
-            width = std::max(width, item->widget()->sizeHint().width());
-        }
-    for (QWidget* label : labels) label->setMinimumWidth(width);
-}
 
 QVBoxLayout* layout_of(QWidget* panel) {
     return static_cast<QVBoxLayout*>(panel->layout());
@@ -151,7 +83,7 @@ DeformPanel::DeformPanel(MeshJobs& jobs, QWidget* parent)
     head->setSpacing(8);
     head->addWidget(file_, 1);
     head->addWidget(load_);
-    QVBoxLayout* layout = make_layout(this);
+    QVBoxLayout* layout = make_panel_layout(this);
     layout->addLayout(head);
     layout->addWidget(operations_);
     layout->addWidget(
@@ -191,7 +123,7 @@ void DeformPanel::show_deformation() {
 WarpPanel::WarpPanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Warp"), QStringLiteral("warp_button"), parent) {
     make_fields();
-    QVBoxLayout* layout = make_layout(this);
+    QVBoxLayout* layout = make_panel_layout(this);
     layout->addLayout(form_);
     explanation_ = make_paragraph(
         tr("Moves the boundary as the deformation says, from where it is now; the interior follows."), "muted");
@@ -328,122 +260,6 @@ std::optional<IncrementOptions> WarpPanel::increments() const {
     increments.steps = choice == StepChoice::automatic ? 0 : step_count_->value();
     increments.recomputes_weights = new_weights_->isChecked();
     return increments;
-}
-
-void LogSpinBox::stepBy(int steps) {
-    double next = value();
-    for (; steps != 0; steps += steps > 0 ? -1 : 1) {
-        // Down from a power of ten, the leading digit is that of the decade below.
-        const double decade = std::pow(10.0, std::floor(std::log10(next) + 1e-9));
-        const bool is_power = std::abs(next / decade - 1.0) < 1e-9;
-        const double step = steps < 0 && is_power ? decade / 10.0 : decade;
-        next = std::round(next / step + (steps > 0 ? 1 : -1)) * step;
-    }
-    setValue(next);
-}
-
-QString LogSpinBox::textFromValue(double value) const {
-    return QString::number(value, 'g', 4);
-}
-
-UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
-    : OperationPanel(jobs, tr("Untangle"), QStringLiteral("untangle_button"), parent) {
-    make_fields();
-    make_layout(this)->addLayout(form_);
-    finish_layout();
-}
-
-void UntanglePanel::make_fields() {
-    const GuaranteedOptions guaranteed;
-    const SignedAngleOptions signed_angles;
-    method_ =
-        make_choice("method", tr("How interior nodes move until no element is tangled; the boundary stays."),
-                    {{tr("Guaranteed"), int(UntangleMethod::guaranteed),
-                      tr("triangles and tetrahedra of any order. Goes on until every element is proved valid.")},
-                     {tr("Signed angles"), int(UntangleMethod::signed_angles),
-                      tr("triangles of order 2 and 3, edge by edge. Corners stay; not every mesh becomes valid.")}});
-    improves_ = new QCheckBox(tr("Improve the worst elements afterwards"));
-    improves_->setObjectName(QStringLiteral("improves"));
-    improves_->setChecked(guaranteed.improves);
-    improves_->setToolTip(
-        tr("Raises the least scaled Jacobian once all elements are valid; takes longer.\n"
-           "Otherwise elements may stay close to tangled."));
-    target_ = make_number("target", 0.05, 1.0, 0.05, 2, guaranteed.target);
-    target_->setToolTip(
-        tr("Elements below this scaled Jacobian are improved, together with those around them.\n"
-           "1: straight-sided. Lower: fewer nodes move and it ends sooner."));
-    beta_ = new LogSpinBox;
-    beta_->setObjectName(QStringLiteral("beta"));
-    beta_->setDecimals(7);
-    beta_->setRange(1e-5, 1.0);
-    beta_->setLocale(QLocale::c());
-    beta_->setValue(signed_angles.beta);
-    beta_->setToolTip(
-        tr("Weight of the angles against the displacement. It depends on the unit of length: thin, "
-           "stretched layers want small values."));
-    passes_ = new QSpinBox;
-    passes_->setObjectName(QStringLiteral("max_passes"));
-    passes_->setRange(1, 1000);
-    passes_->setValue(signed_angles.max_passes);
-    passes_->setToolTip(tr("Every pass visits all interior edges once"));
-    reject_ = new QCheckBox(tr("Stop when a pass makes things worse"));
-    reject_->setObjectName(QStringLiteral("reject_worse_pass"));
-    reject_->setChecked(true);
-    reject_->setToolTip(tr("Takes back a pass that leaves more tangled elements or a lower minimum"));
-
-    form_ = make_form();
-    form_->addRow(tr("Method"), method_);
-    form_->addRow(improves_);
-    form_->addRow(tr("Target"), target_);
-    form_->addRow(tr("Weight β"), beta_);
-    form_->addRow(tr("Passes at most"), passes_);
-    form_->addRow(reject_);
-    align_labels(form_);
-    connect(improves_, &QCheckBox::toggled, target_, &QWidget::setEnabled);
-    connect(method_, &QComboBox::currentIndexChanged, this, [this] {
-        show_fields();
-        refresh();
-    });
-    show_fields();
-}
-
-void UntanglePanel::show_fields() {
-    const bool is_guaranteed = chosen<UntangleMethod>(method_) == UntangleMethod::guaranteed;
-    for (QWidget* field : std::initializer_list<QWidget*>{improves_, target_})
-        form_->setRowVisible(field, is_guaranteed);
-    for (QWidget* field : std::initializer_list<QWidget*>{beta_, passes_, reject_})
-        form_->setRowVisible(field, !is_guaranteed);
-}
-
-void UntanglePanel::run() {
-    if (chosen<UntangleMethod>(method_) == UntangleMethod::guaranteed)
-        jobs_.untangle(guaranteed_options());
-    else
-        jobs_.untangle(signed_angle_options());
-}
-
-QString UntanglePanel::why_not() const {
-    return jobs_.why_not_untangle(chosen<UntangleMethod>(method_));
-}
-
-GuaranteedOptions UntanglePanel::guaranteed_options() const {
-    GuaranteedOptions options;
-    options.improves = improves_->isChecked();
-    options.target = target_->value();
-    return options;
-}
-
-SignedAngleOptions UntanglePanel::signed_angle_options() const {
-    SignedAngleOptions options;
-    options.beta = beta_->value();
-    options.max_passes = passes_->value();
-    options.reject_worse_pass = reject_->isChecked();
-    return options;
-}
-
-void UntanglePanel::set_beta(double beta) {
-    method_->setCurrentIndex(method_->findData(int(UntangleMethod::signed_angles)));
-    beta_->setValue(beta);
 }
 
 }  // namespace curvewright

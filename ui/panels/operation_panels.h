@@ -89,40 +89,4 @@ class WarpPanel : public OperationPanel {
     QLabel *explanation_ = nullptr, *applied_ = nullptr;
 };
 
-/// A spin box whose steps change the leading digit: 0.002, 0.003, ... 0.009, 0.01, 0.02.
-class LogSpinBox : public QDoubleSpinBox {
-    Q_OBJECT
-
-  public:
-    using QDoubleSpinBox::QDoubleSpinBox;
-    void stepBy(int steps) override;
-    QString textFromValue(double value) const override;
-};
-
-/// The methods of untangling and their parameters.
-class UntanglePanel : public OperationPanel {
-    Q_OBJECT
-
-  public:
-    explicit UntanglePanel(MeshJobs& jobs, QWidget* parent = nullptr);
-    void run() override;
-    QString why_not() const override;
-    GuaranteedOptions guaranteed_options() const;
-    SignedAngleOptions signed_angle_options() const;
-    /// Chooses signed angles with this weight.
-    void set_beta(double beta);
-
-  private:
-    void make_fields();
-    /// Only what belongs to the method chosen.
-    void show_fields();
-
-    QComboBox* method_ = nullptr;
-    QCheckBox *improves_ = nullptr, *reject_ = nullptr;
-    QDoubleSpinBox* target_ = nullptr;
-    LogSpinBox* beta_ = nullptr;
-    QSpinBox* passes_ = nullptr;
-    QFormLayout* form_ = nullptr;
-};
-
 }  // namespace curvewright

@@ -51,7 +51,7 @@ TEST(BernsteinSimplex, BisectionKeepsThePolynomial) {
                     const auto& form = BernsteinSimplex::get(dim, degree);
                     std::vector<double> c(form.size()), near_a(form.size()), near_b(form.size());
                     for (double& v : c) v = normal(random);
-                    form.bisect(a, b, c.data(), near_a.data(), near_b.data());
+                    form.bisect(a, b, 1, c.data(), near_a.data(), near_b.data());
                     // A point of the half near a, in the half's own and in the whole's barycentric coordinates.
                     const auto half = random_point(dim, random);
                     auto whole = half;
@@ -63,6 +63,52 @@ TEST(BernsteinSimplex, BisectionKeepsThePolynomial) {
                     whole[a] *= 0.5;
                     EXPECT_NEAR(evaluate(form, near_b, half), evaluate(form, c, whole), 1e-12);
                 }
+}
+
+/// Value of a form at a point given by the barycentric coordinates in every factor.
+double evaluate(const BernsteinForm& form, const std::vector<double>& coefficients,
+                const std::vector<std::array<double, 4>>& l) {
+    std::vector<double> left = coefficients;
+    for (std::size_t f = form.factors().size(); f-- > 0;) {
+        const BernsteinSimplex& factor = *form.factors()[f];
+        std::vector<double> values;
+        for (auto first = left.begin(); first != left.end(); first += factor.size())
+            values.push_back(evaluate(factor, {first, first + factor.size()}, l[f]));
+        left = values;
+    }
+    return left.front();
+}
+
+TEST(BernsteinForm, BisectionKeepsThePolynomialAndCornersAreValues) {
+    std::mt19937 random(4);
+    std::normal_distribution<double> normal;
+    for (const auto& [dimensions, degrees] : std::vector<std::pair<std::vector<int>, std::vector<int>>>{
+             {{1, 1}, {3, 2}}, {{1, 1, 1}, {2, 3, 1}}, {{2, 1}, {4, 3}}, {{3}, {4}}}) {
+        const BernsteinForm form(dimensions, degrees);
+        std::vector<double> c(form.size()), near_a(form.size()), near_b(form.size());
+        for (double& v : c) v = normal(random);
+        for (const BernsteinForm::Corner& corner : form.corners()) {
+            std::vector<std::array<double, 4>> point(dimensions.size());
+            for (std::size_t f = 0; f < dimensions.size(); ++f) point[f][corner.of_factor[f]] = 1.0;
+            EXPECT_EQ(evaluate(form, c, point), c[corner.position]);
+        }
+        for (std::size_t f = 0; f < dimensions.size(); ++f)
+            for (int a = 0; a <= dimensions[f]; ++a)
+                for (int b = 0; b <= dimensions[f]; ++b) {
+                    if (a == b) continue;
+                    form.bisect(static_cast<int>(f), a, b, c.data(), near_a.data(), near_b.data());
+                    std::vector<std::array<double, 4>> half;
+                    for (const int dim : dimensions) half.push_back(random_point(dim, random));
+                    auto whole = half;
+                    whole[f][a] += 0.5 * half[f][b];
+                    whole[f][b] *= 0.5;
+                    EXPECT_NEAR(evaluate(form, near_a, half), evaluate(form, c, whole), 1e-12);
+                    whole = half;
+                    whole[f][b] += 0.5 * half[f][a];
+                    whole[f][a] *= 0.5;
+                    EXPECT_NEAR(evaluate(form, near_b, half), evaluate(form, c, whole), 1e-12);
+                }
+    }
 }
 
 TEST(LagrangeToBernstein, BothFormsHaveTheSameValues) {

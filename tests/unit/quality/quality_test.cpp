@@ -15,7 +15,9 @@ using testing::square_mesh;
 
 TEST(AssessQuality, StraightMeshesAreValidWithScaledJacobianOne) {
     for (int order = 1; order <= 4; ++order)
-        for (const CurvedMesh& mesh : {square_mesh(3, order), cube_mesh(2, order)}) {
+        for (const CurvedMesh& mesh : {square_mesh(3, order), cube_mesh(2, order), testing::quad_mesh(3, order),
+                                       testing::hex_mesh(2, order), testing::prism_mesh(2, order),
+                                       testing::mixed_square_mesh(2, order), testing::mixed_cube_mesh(2, order)}) {
             const QualityReport report = assess_quality(mesh);
             EXPECT_EQ(report.summary.valid, mesh.topology().element_count());
             EXPECT_NEAR(report.summary.min, 1.0, 1e-10);
@@ -55,7 +57,11 @@ TEST(AssessQuality, SummaryCountsAndWorstListAgreeWithTheElements) {
 
 TEST(Orientation, ClockwiseMeshIsJudgedTheOtherWayRoundAndCanBeFlipped) {
     std::mt19937 random(11);
-    for (const CurvedMesh& mesh : {shaken(square_mesh(4, 3), 0.02, random), shaken(cube_mesh(2, 3), 0.02, random)}) {
+    for (const CurvedMesh& mesh :
+         {shaken(square_mesh(4, 3), 0.02, random), shaken(cube_mesh(2, 3), 0.02, random),
+          shaken(testing::quad_mesh(4, 3), 0.02, random), shaken(testing::hex_mesh(2, 2), 0.04, random),
+          shaken(testing::prism_mesh(2, 2), 0.04, random), shaken(testing::mixed_square_mesh(4, 2), 0.04, random),
+          shaken(testing::mixed_cube_mesh(2, 1), 0.04, random)}) {
         const CurvedMesh clockwise = flip_orientation(mesh);
         const QualityReport original = assess_quality(mesh), report = assess_quality(clockwise);
         EXPECT_EQ(report.orientation, Orientation::negative);
@@ -63,6 +69,15 @@ TEST(Orientation, ClockwiseMeshIsJudgedTheOtherWayRoundAndCanBeFlipped) {
         EXPECT_NEAR(report.summary.min, original.summary.min, 1e-3);
         EXPECT_EQ(assess_quality(flip_orientation(clockwise)).orientation, Orientation::positive);
     }
+}
+
+/// A quadrilateral with a reflex corner counts by its area, not by the sign of J at the first corner.
+TEST(Orientation, ConcaveQuadrilateralIsNotClockwise) {
+    Eigen::MatrixX3d x(4, 3);
+    x << 0.2, 0.2, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0;  // J < 0 at node 0
+    const QualityReport report = assess_quality(testing::single_element({Shape::quadrilateral, 1}, x));
+    EXPECT_EQ(report.orientation, Orientation::positive);
+    EXPECT_EQ(report.summary.invalid, 1);
 }
 
 TEST(Orientation, MeshTurnedInsideOutIsInvalidForTheOriginalsSign) {
@@ -86,14 +101,13 @@ TEST(Orientation, OneReversedElementIsMixed) {
 }
 
 TEST(AssessQuality, RefusesWhatItCannotJudge) {
-    Eigen::MatrixX3d square(4, 3);
-    square << 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0;
     try {
-        assess_quality(testing::single_element({Shape::quadrilateral, 1}, square));
+        assess_quality(testing::pyramid_mesh(1));
         FAIL();
     } catch (const Unsupported& error) {
         EXPECT_STREQ(error.what(),
-                     "Element 1 is a quadrilateral; the scaled Jacobian is available for triangles and tetrahedra.");
+                     "Element 101 is a pyramid, whose shape functions are rational; the scaled Jacobian is available "
+                     "for triangles, quadrilaterals, tetrahedra, hexahedra and prisms.");
     }
     Coordinates bent = square_mesh(2, 1).coordinates();
     bent(0, 2) = 0.5;

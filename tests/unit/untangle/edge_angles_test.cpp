@@ -69,6 +69,80 @@ TEST(EdgeAngles, AreTheSameForTheMirroredNumbering) {
     }
 }
 
+/// Positions of an edge's nodes: x, y of each in turn.
+Eigen::VectorXd edge_positions(const CurvedMesh& mesh, const InteriorEdge& edge) {
+    Eigen::VectorXd result(2 * static_cast<Eigen::Index>(edge.nodes.size()));
+    for (std::size_t i = 0; i < edge.nodes.size(); ++i)
+        result.segment<2>(static_cast<Eigen::Index>(2 * i)) = mesh.coordinates().row(edge.nodes[i]).head<2>();
+    return result;
+}
+
+TEST(UnsignedAngleSum, AddsTheMagnitudesOfTheSignedAngles) {
+    std::mt19937 random(3);
+    for (const int order : {2, 3, 4, 7}) {
+        const CurvedMesh mesh = shaken(square_mesh(4, order), 0.15 / order, random);  // some angles are negative
+        bool has_negative = false;
+        for (const InteriorEdge& edge : find_interior_edges(mesh.topology())) {
+            const UnsignedAngleSum sum(mesh.topology(), mesh.coordinates(), edge);
+            const EdgeNode first{edge.nodes[0], edge.triangles, edge.local_edges, 2};
+            const auto signed_angles = EdgeAngles(mesh.topology(), mesh.coordinates(), first, 1.0)
+                                           .evaluate(mesh.coordinates().row(edge.nodes[0]).head<2>().transpose());
+            const Eigen::VectorXd positions = edge_positions(mesh, edge);
+            const auto angles = sum.angles(positions);
+            for (int i = 0; i < 4; ++i) {
+                EXPECT_NEAR(angles[i], std::abs(signed_angles[i]), 1e-7);
+                has_negative |= signed_angles[i] < 0.0;
+            }
+            EXPECT_DOUBLE_EQ(sum.evaluate(positions), angles[0] + angles[1] + angles[2] + angles[3]);
+        }
+        EXPECT_TRUE(has_negative) << "P" << order;
+    }
+}
+
+TEST(UnsignedAngleSum, TheExactGradientAgreesWithTheDifferences) {
+    std::mt19937 random(4);
+    int compared = 0, nonzero = 0;
+    for (const int order : {2, 3, 5}) {
+        const CurvedMesh mesh = shaken(square_mesh(4, order), 0.15 / order, random);
+        for (const InteriorEdge& edge : find_interior_edges(mesh.topology())) {
+            const UnsignedAngleSum sum(mesh.topology(), mesh.coordinates(), edge);
+            const Eigen::VectorXd positions = edge_positions(mesh, edge);
+            const auto angles = sum.angles(positions);
+            // The differences straddle a kink where an angle is nearly 0 or pi.
+            if (std::any_of(angles.begin(), angles.end(),
+                            [](double a) { return std::min(a, std::numbers::pi - a) < 0.02; }))
+                continue;
+            Eigen::VectorXd gradient;
+            EXPECT_EQ(sum.evaluate(positions, gradient), sum.evaluate(positions));
+            const Eigen::VectorXd differences = sum.difference_gradient(positions, 1e-6 * sum.edge_length());
+            EXPECT_LT((gradient - differences).norm() * sum.edge_length(), 1e-7 * (1.0 + gradient.norm()));
+            ++compared;
+            nonzero += gradient.norm() > 0.0 ? 1 : 0;
+        }
+    }
+    EXPECT_GT(compared, 80);
+    EXPECT_GT(nonzero, 10);
+}
+
+TEST(InteriorEdges, HaveTheirNodesInTheOrderOfTheirFirstTriangle) {
+    const CurvedMesh mesh = square_mesh(3, 4);
+    const auto edges = find_interior_edges(mesh.topology());
+    ASSERT_EQ(edges.size(), 33u - 12u);
+    for (const InteriorEdge& edge : edges) {
+        ASSERT_EQ(edge.nodes.size(), 3u);
+        EXPECT_LT(edge.triangles[0], edge.triangles[1]);
+        const auto nodes = mesh.topology().element_nodes(edge.triangles[0]);
+        const int local = edge.local_edges[0];
+        const Eigen::RowVector3d start = mesh.coordinates().row(nodes[local]);
+        double last = 0.0;
+        for (const Index node : edge.nodes) {
+            const double distance = (mesh.coordinates().row(node) - start).norm();
+            EXPECT_GT(distance, last);
+            last = distance;
+        }
+    }
+}
+
 TEST(InteriorEdgeNodes, AreThoseOfEdgesWithTwoTriangles) {
     for (const int order : {2, 3, 4}) {
         const CurvedMesh mesh = square_mesh(3, order);

@@ -44,7 +44,7 @@ TEST(ColourEdges, EdgesOfOneColourShareNoTriangle) {
         const CurvedMesh mesh = square_mesh(5, order);
         const auto edges = group_by_edge(find_interior_edge_nodes(mesh.topology()));
         ASSERT_EQ(edges.size(), std::size_t(3 * 25 + 2 * 5 - 20));  // all but the boundary's
-        for (const InteriorEdge& edge : edges) {
+        for (const EdgeNodes& edge : edges) {
             ASSERT_EQ(edge.size(), std::size_t(order - 1));
             for (int i = 0; i < order - 1; ++i) {
                 EXPECT_EQ(edge[i].position, i + 2);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh/curved_mesh.h"
+#include "core/mesh/node_elements.h"
+
+namespace curvewright {
+
+/// Proof that an element cannot become valid.
+struct Impossibility {
+    /// Upper bound of min J / max |J| (max |J| as it is) for all positions of the nodes that may move, for the element
+    /// or, where the reason speaks of neighbours, for the least of them.
+    double bound = 0.0;
+    std::string reason;
+};
+
+/// Looks for a proof that no position of the nodes that may move makes an element (triangle or tetrahedron) valid while
+/// those next to it are valid.
+///
+/// J at a corner depends on the nodes of the edges that meet there: if none of them may move, J stays what it is.
+/// If the other edges there have no movable nodes, J at the corner is a linear form of the tangent that the edge has
+/// there; the elements around the edge may ask for tangents that do not exist.
+/// J is an affine function of the position of any one node everywhere, since it changes the Jacobian by a matrix of
+/// rank one. So the largest possible least value of J, over the points where it depends on one movable node alone
+/// (corners, or samples of a whole element whose only movable node it is), is a linear program; a feasible point of its
+/// dual gives a bound, up to rounding, whatever the accuracy of its solution. The program is set up for each movable
+/// node, for the element alone and then with the others around the node; if it is only with the element that these have
+/// no solution, the element is what cannot be had. Positions farther away than 1000 extents of the element are not
+/// considered.
+///
+/// sign: the orientation's, see JacobianBounds. is_given_up: elements that need not be valid. None if no proof was
+/// found.
+std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element, double sign,
+                                                const NodeElements& node_elements,
+                                                const std::function<bool(Index node)>& may_move,
+                                                const std::function<bool(Index element)>& is_given_up = {});
+
+}  // namespace curvewright

@@ -1,0 +1,117 @@
+#include "ui/jobs/untangling.h"
+
+#include <QCoreApplication>
+#include <QStringList>
+
+#include "ui/document/number_format.h"
+
+namespace curvewright {
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("curvewright::MeshJobs", text);
+}
+
+QString seconds_text(double seconds) {
+    if (seconds < 0.001) return tr("less than 0.001 s");
+    return tr("%1 s").arg(QString::number(seconds, 'f', seconds < 0.1 ? 3 : seconds < 10.0 ? 2 : 1));
+}
+
+/// The elements that are still not valid: how many, the first and what is wrong with it.
+QString describe_unmended(const std::vector<UnmendedElement>& unmended, const MeshTopology& topology) {
+    const UnmendedElement& first = unmended.front();
+    const QString tag = QString::number(topology.element_tag(first.element).value);
+    const QString reason = QString::fromStdString(first.reason);
+    if (unmended.size() == 1) return tr("Element %1 cannot be mended with the boundary as it is: %2.").arg(tag, reason);
+    return tr("%1 elements cannot be mended with the boundary as it is; the first is element %2: %3.")
+        .arg(format_count(static_cast<long long>(unmended.size())), tag, reason);
+}
+
+QString describe_untangling(const GuaranteedResult& result, const GuaranteedOptions& options,
+                            const MeshTopology& topology) {
+    QStringList text;
+    const QString valid = seconds_text(result.valid_seconds), improved = seconds_text(result.improve_seconds);
+    if (!result.unmended.empty())
+        text << tr("Stopped after %1.").arg(valid) << describe_unmended(result.unmended, topology);
+    else if (options.improves)
+        text << tr("Valid after %1; improved in %2.").arg(valid, improved);
+    else
+        text << tr("Valid after %1.").arg(valid);
+    return text.join(QLatin1Char(' '));
+}
+
+QString describe_passes(const UntangleResult& result) {
+    const QString passes = result.passes == 1 ? tr("1 pass") : tr("%1 passes").arg(format_count(result.passes));
+    switch (result.reason) {
+        case StopReason::converged:
+            return tr("Converged after %1.").arg(passes);
+        case StopReason::untangled:
+            return tr("All elements are valid after %1.").arg(passes);
+        case StopReason::pass_limit:
+            return tr("Stopped at the limit of %1.").arg(passes);
+        case StopReason::no_progress:
+            return tr("Stopped after %1: a further one would not make things better.").arg(passes);
+        case StopReason::cancelled:
+            return tr("Cancelled after %1.").arg(passes);
+    }
+    return {};
+}
+
+Step run(const CurvedMesh& mesh, const GuaranteedOptions& options, const TaskContext& context) {
+    GuaranteedResult result = untangle_guaranteed(mesh, options, nullptr, context);
+    Step step;
+    step.name = tr("Untangle, guaranteed");
+    step.details = options.improves ? tr("Elements below %1 improved afterwards").arg(short_number(options.target))
+                                    : tr("Valid only, nothing improved afterwards");
+    step.note = describe_untangling(result, options, mesh.topology());
+    step.advice = tr("Move the boundary less, or refine the mesh there.");
+    step.coordinates = std::move(result.coordinates);
+    return step;
+}
+
+Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, const TaskContext& context) {
+    UntangleResult result = untangle_signed_angles(mesh, options, nullptr, context);
+    Step step;
+    step.name = tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
+    step.note = describe_passes(result);
+    step.advice = tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
+    step.coordinates = std::move(result.coordinates);
+    return step;
+}
+
+Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, const TaskContext& context) {
+    UntangleResult result = untangle_unsigned_angles(mesh, options, nullptr, context);
+    Step step;
+    step.name = tr("Untangle, unsigned angles");
+    step.details = options.is_guarded ? tr("Several starts and steps per edge, the best by its certificate")
+                                      : tr("As published: one start and one first step per edge");
+    step.note = describe_passes(result);
+    step.advice =
+        tr("Elements are still tangled: where tangling is deep, the sum of the angles is flat. Undo, and try "
+           "the guaranteed method.");
+    step.coordinates = std::move(result.coordinates);
+    return step;
+}
+
+}  // namespace
+
+QString why_not_untangle(const MeshTopology& topology, UntangleMethod method) {
+    if (method == UntangleMethod::guaranteed) return {};
+    const bool is_signed = method == UntangleMethod::signed_angles;
+    for (const ElementBlock& block : topology.blocks()) {
+        if (dimension(block.type.shape) != topology.dimension()) continue;
+        if (block.type.shape == Shape::triangle && block.type.order >= 2 && (!is_signed || block.type.order <= 3))
+            continue;
+        const QString text =
+            is_signed ? tr("Signed angles untangle curved triangles of order 2 and 3; this mesh has %1 elements.")
+                      : tr("Unsigned angles untangle curved triangles; this mesh has %1 elements.");
+        return text.arg(QString::fromStdString(name(block.type)));
+    }
+    return {};
+}
+
+Step untangle(const CurvedMesh& mesh, const UntangleOptions& options, const TaskContext& context) {
+    return std::visit([&](const auto& of_method) { return run(mesh, of_method, context); }, options);
+}
+
+}  // namespace curvewright

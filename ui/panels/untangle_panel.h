@@ -1,0 +1,35 @@
+#pragma once
+
+#include "ui/panels/operation_panels.h"
+
+namespace curvewright {
+
+class LogSpinBox;
+
+/// The methods of untangling and their parameters.
+class UntanglePanel : public OperationPanel {
+    Q_OBJECT
+
+  public:
+    explicit UntanglePanel(MeshJobs& jobs, QWidget* parent = nullptr);
+    void run() override;
+    QString why_not() const override;
+    /// Of the method chosen.
+    UntangleOptions options() const;
+    /// Chooses signed angles with this weight.
+    void set_beta(double beta);
+
+  private:
+    void make_fields();
+    /// Only what belongs to the method chosen.
+    void show_fields();
+
+    QComboBox* method_ = nullptr;
+    QCheckBox *improves_ = nullptr, *reject_ = nullptr, *literal_ = nullptr;
+    QDoubleSpinBox* target_ = nullptr;
+    LogSpinBox* beta_ = nullptr;
+    QSpinBox* passes_ = nullptr;
+    QFormLayout* form_ = nullptr;
+};
+
+}  // namespace curvewright
