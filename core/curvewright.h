@@ -35,4 +35,5 @@
 #include "core/untangle/unsigned_angles.h"
 #include "core/warp/incremental.h"
 #include "core/warp/response.h"
+#include "core/warp/straight_start.h"
 #include "core/warp/warp.h"

@@ -15,6 +15,7 @@
 #include "core/untangle/signed_angles.h"
 #include "core/untangle/trace.h"
 #include "core/untangle/unsigned_angles.h"
+#include "core/warp/straight_start.h"
 
 namespace curvewright::cli {
 namespace {
@@ -30,6 +31,7 @@ struct Options {
     SignedAngleOptions signed_angles;
     bool is_literal = false;  ///< unsigned angles to the letter
     int max_passes = 0;       ///< 0 = the method's own
+    std::optional<Weighting> warp_first;
     GuaranteedOptions guaranteed;
     std::vector<std::string> boundary;  ///< rules as given
 };
@@ -76,14 +78,23 @@ Outcome run_signed_angles(const CurvedMesh& input, const Options& options, Untan
     SignedAngleOptions method = options.signed_angles;
     if (options.max_passes > 0) method.max_passes = options.max_passes;
     const Stopwatch watch;
-    UntangleResult result = untangle_signed_angles(input, method, observer, context);
-    timings["untangle"] = watch.seconds();
+    CurvedMesh start = input;
+    if (options.warp_first) {
+        WarpOptions warp;
+        warp.weighting = *options.warp_first;
+        start = input.with_coordinates(warp_from_straight(input, warp, context).coordinates);
+        timings["warp"] = watch.seconds();
+    }
+    const Stopwatch untangle_watch;
+    UntangleResult result = untangle_signed_angles(start, method, observer, context);
+    timings["untangle"] = untangle_watch.seconds();
     const bool is_automatic = method.beta_choice == BetaChoice::automatic;
     Outcome outcome;
     outcome.details = {{"method", signed_method},
                        {"beta", is_automatic ? Json("auto") : Json(method.beta)},
                        {"passes", result.passes},
                        {"stopped", to_string(result.reason)}};
+    if (options.warp_first) outcome.details["warped_first"] = to_string(*options.warp_first);
     outcome.text = passes_text(result, watch.seconds());
     outcome.coordinates = std::move(result.coordinates);
     return outcome;
@@ -197,7 +208,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 }  // namespace
 
 void add_untangle(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "untangle", "Make invalid elements valid; the boundary stays unless told otherwise");
+    auto* command = add_command(app, invocation, "untangle",
+                                "Make invalid elements valid; the boundary stays unless told otherwise");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh);
     add_output_options(*command, options->output);
@@ -228,6 +240,16 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         [options](std::int64_t) { options->signed_angles.displacement = DisplacementUnit::edge_length; },
         "Measure displacements in lengths of the node's edge, so that beta does not depend on the unit of length "
         "(signed-angle; always so with --beta auto)");
+    command
+        ->add_option_function<std::string>(
+            "--warp-first",
+            [options](const std::string& weights) {
+                for (const Weighting weighting : {Weighting::convex, Weighting::affine, Weighting::elastic})
+                    if (weights == to_string(weighting)) options->warp_first = weighting;
+            },
+            "Begin with the interior nodes, corners included, where these weights of the straight-sided mesh put them "
+            "(signed-angle, which moves high-order nodes only)")
+        ->check(CLI::IsMember({"convex", "affine", "elastic"}));
     command->add_option("--max-passes", options->max_passes, "Passes at most (signed-angle, unsigned-angle)")
         ->check(CLI::Range(1, 1000000));
     command->add_flag("--literal", options->is_literal,
@@ -264,6 +286,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         check_options(*command, options->method,
                       {{"--beta", {signed_method}},
                        {"--length-normalised", {signed_method}},
+                       {"--warp-first", {signed_method}},
                        {"--reject-worse-pass", {signed_method}},
                        {"--max-passes", {signed_method, unsigned_method}},
                        {"--literal", {unsigned_method}},

@@ -1,6 +1,5 @@
 #include "core/untangle/signed_angles.h"
 
-#include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
@@ -8,23 +7,13 @@
 #include "core/base/error.h"
 #include "core/quality/quality.h"
 #include "tests/support/mesh_factory.h"
+#include "tests/unit/untangle/bulged_mesh.h"
 
 namespace curvewright {
 namespace {
 
+using testing::bulged;
 using testing::square_mesh;
-
-/// A square whose bottom side bulges into the mesh so that triangles on it are tangled.
-CurvedMesh bulged(int n, int order, double height) {
-    const CurvedMesh mesh = square_mesh(n, order);
-    Coordinates x = mesh.coordinates();
-    const auto bottom = mesh.topology().find_group_nodes("bottom").value();
-    for (Index node : bottom) {
-        const double t = x(node, 0) * n - std::floor(x(node, 0) * n);
-        x(node, 1) += height * 4 * t * (1 - t);  // corners stay
-    }
-    return mesh.with_coordinates(x);
-}
 
 TEST(SignedAngles, UntanglesABulgedBoundary) {
     for (const int order : {2, 3}) {
