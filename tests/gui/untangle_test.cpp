@@ -9,6 +9,7 @@
 #include <QSignalSpy>
 #include <QSpinBox>
 #include <QToolButton>
+#include <QTreeWidget>
 #include <fstream>
 
 #include "core/io/mesh_io.h"
@@ -61,7 +62,7 @@ struct UntangleUnderTest : WindowUnderTest {
     QString note;
 };
 
-constexpr const char* guaranteed_fields[] = {"improves", "target"};
+constexpr const char* guaranteed_fields[] = {"boundary", "improves", "target"};
 constexpr const char* signed_angle_fields[] = {"beta", "max_passes", "reject_worse_pass"};
 
 }  // namespace
@@ -88,8 +89,10 @@ class UntangleTest : public QObject {
 
         test.choose("Signed angles");
         for (const char* name : guaranteed_fields) QVERIFY2(!test.shows(name), name);
+        QVERIFY(test.shows("chooses_beta") && test.shows("max_passes") && !test.shows("beta"));
+        test.find<QCheckBox>("chooses_beta")->setChecked(false);
         for (const char* name : signed_angle_fields) QVERIFY2(test.shows(name), name);
-        QVERIFY(method->toolTip().contains(QStringLiteral("order 2 and 3")));
+        QVERIFY(method->toolTip().contains(QStringLiteral("order 2 and up")));
         const QWidget* panel = test.find<QPushButton>("untangle_button")->parentWidget();
         for (const char* name : {"Guaranteed", "Signed angles", "Unsigned angles"}) {
             test.choose(name);
@@ -141,6 +144,14 @@ class UntangleTest : public QObject {
         test.open_annulus();
         const CurvedMesh tangled = *test.state().mesh;
         test.choose("Signed angles");
+        QVERIFY(test.untangle_and_wait());
+        SignedAngleOptions automatic;
+        automatic.beta_choice = BetaChoice::automatic;
+        QCOMPARE(test.state().mesh->coordinates(), untangle_signed_angles(tangled, automatic).coordinates);
+        QCOMPARE(test.document().history()->undoText(), QStringLiteral("Untangle, signed angles, β chosen"));
+        test.click("tool_undo");
+
+        test.find<QCheckBox>("chooses_beta")->setChecked(false);
         test.find<QDoubleSpinBox>("beta")->setValue(0.7);
         test.find<QSpinBox>("max_passes")->setValue(4);
         QVERIFY(test.untangle_and_wait());
@@ -197,7 +208,7 @@ class UntangleTest : public QObject {
                     .arg(QString::fromStdString(first.reason))),
             qPrintable(test.note));
         QVERIFY(test.note.startsWith(QStringLiteral("Stopped after ")));
-        QVERIFY(test.note.endsWith(QStringLiteral("Move the boundary less, or refine the mesh there.")));
+        QVERIFY(test.note.endsWith(QStringLiteral("Let the boundary slide, move it less, or refine the mesh there.")));
         QVERIFY(test.details().contains(QStringLiteral("cannot be mended")));
         QCOMPARE(test.state().quality->summary.invalid, static_cast<Index>(expected.unmended.size()));
     }
@@ -206,24 +217,66 @@ class UntangleTest : public QObject {
         UntangleUnderTest test;
         const auto reason = [&] { return test.text("untangle_button_reason"); };
         const auto* button = test.find<QPushButton>("untangle_button");
-        test.open(test.file("p4.msh", square_mesh(2, 4)));
+        test.open(test.file("p1.msh", square_mesh(2, 1)));
         test.window->show_tab(QStringLiteral("untangle"));
         QVERIFY(button->isEnabled() && reason().isEmpty());
-        test.choose("Signed angles");
-        QVERIFY(!button->isEnabled() && reason().contains(QStringLiteral("order 2 and 3")));
-        QVERIFY(reason().contains(QStringLiteral("P4 triangle")));
-        QVERIFY(!test.find<QToolButton>("tool_untangle")->isEnabled());
+        for (const char* name : {"Signed angles", "Unsigned angles"}) {
+            test.choose(name);
+            QVERIFY(!button->isEnabled() && reason().contains(QStringLiteral("order 2 and up")));
+            QVERIFY(reason().contains(QStringLiteral("P1 triangle")));
+            QVERIFY(!test.find<QToolButton>("tool_untangle")->isEnabled());
+        }
         test.choose("Guaranteed");
         QVERIFY(button->isEnabled() && reason().isEmpty());
         QVERIFY(test.find<QToolButton>("tool_untangle")->isEnabled());
 
         test.open(test.inputs.path(QStringLiteral("quad.msh")));
+        QVERIFY(button->isEnabled() && reason().isEmpty());
+        test.choose("Signed angles");
+        QVERIFY(!button->isEnabled() && reason().contains(QStringLiteral("quadrilateral")));
+        test.choose("Guaranteed");
+
+        test.open(test.file("pyramids.msh", pyramid_mesh(1)));
         QVERIFY(!button->isEnabled());
         QVERIFY(!test.find<QToolButton>("tool_untangle")->isEnabled());
-        QVERIFY2(reason().contains(QStringLiteral("quadrilateral")), qPrintable(reason()));
+        QVERIFY2(reason().contains(QStringLiteral("pyramid")), qPrintable(reason()));
         QVERIFY(!test.window->jobs().untangle(GuaranteedOptions()));
-        test.choose("Signed angles");
-        QVERIFY(!button->isEnabled() && reason().contains(QStringLiteral("order 2 and 3")));
+    }
+
+    void the_boundary_slides_where_it_is_told_to() {
+        UntangleUnderTest test;
+        test.open_annulus();
+        const CurvedMesh tangled = *test.state().mesh;
+        auto* boundary = test.find<QComboBox>("boundary");
+        QCOMPARE(boundary->currentText(), QStringLiteral("Stays"));
+        QVERIFY(!test.shows("boundary_groups"));
+        boundary->setCurrentIndex(boundary->findText(QStringLiteral("Slides along itself")));
+        QVERIFY(test.untangle_and_wait());
+        GuaranteedOptions slide;
+        slide.boundary.otherwise = BoundaryMode::slide;
+        QCOMPARE(test.state().mesh->coordinates(), untangle_guaranteed(tangled, slide).coordinates);
+        QVERIFY2(test.note.contains(QStringLiteral("from where it was")), qPrintable(test.note));
+        QCOMPARE(test.document().history()->undoText(), QStringLiteral("Untangle, guaranteed, boundary moves"));
+
+        test.click("tool_undo");
+        boundary->setCurrentIndex(boundary->findText(QStringLiteral("By group")));
+        auto* groups = test.find<QTreeWidget>("boundary_groups");
+        QVERIFY(groups->isVisible());
+        QCOMPARE(groups->topLevelItemCount(), 2);
+        GuaranteedOptions by_group;
+        for (int i = 0; i < 2; ++i) {
+            QTreeWidgetItem* item = groups->topLevelItem(i);
+            if (item->text(0) != QStringLiteral("inner")) continue;
+            auto* mode = qobject_cast<QComboBox*>(groups->itemWidget(item, 1));
+            mode->setCurrentIndex(mode->findText(QStringLiteral("Slides")));
+            by_group.boundary.groups.push_back({"inner", BoundaryMode::slide});
+        }
+        QCOMPARE(by_group.boundary.groups.size(), std::size_t(1));
+        QVERIFY(test.untangle_and_wait());
+        QCOMPARE(test.state().mesh->coordinates(), untangle_guaranteed(tangled, by_group).coordinates);
+        const std::vector<Index> outer = tangled.topology().find_group_nodes("outer").value();
+        for (const Index node : outer)
+            QCOMPARE(test.state().mesh->coordinates().row(node), tangled.coordinates().row(node));
     }
 
     void tetrahedra_are_untangled_and_can_be_cancelled() {

@@ -64,7 +64,15 @@ Step run(const CurvedMesh& mesh, const GuaranteedOptions& options, const TaskCon
     step.details = options.improves ? tr("Elements below %1 improved afterwards").arg(short_number(options.target))
                                     : tr("Valid only, nothing improved afterwards");
     step.note = describe_untangling(result, options, mesh.topology());
-    step.advice = tr("Move the boundary less, or refine the mesh there.");
+    if (!options.boundary.is_all_fixed()) {
+        step.name = tr("Untangle, guaranteed, boundary moves");
+        step.note +=
+            QLatin1Char(' ') +
+            tr("The boundary is at most %1 from where it was.").arg(short_number(result.largest_boundary_distance));
+    }
+    step.advice = options.boundary.is_all_fixed()
+                      ? tr("Let the boundary slide, move it less, or refine the mesh there.")
+                      : tr("Move the boundary less, or refine the mesh there.");
     step.coordinates = std::move(result.coordinates);
     return step;
 }
@@ -72,9 +80,14 @@ Step run(const CurvedMesh& mesh, const GuaranteedOptions& options, const TaskCon
 Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, const TaskContext& context) {
     UntangleResult result = untangle_signed_angles(mesh, options, nullptr, context);
     Step step;
-    step.name = tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
+    const bool is_automatic = options.beta_choice == BetaChoice::automatic;
+    step.name = is_automatic ? tr("Untangle, signed angles, β chosen")
+                             : tr("Untangle, signed angles, β %1").arg(QString::number(options.beta, 'g', 4));
     step.note = describe_passes(result);
-    step.advice = tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
+    step.advice = is_automatic
+                      ? tr("Elements are still tangled: corners and boundary may be in the way. Undo, and try the "
+                           "guaranteed method.")
+                      : tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
     step.coordinates = std::move(result.coordinates);
     return step;
 }
@@ -97,15 +110,11 @@ Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, const Task
 
 QString why_not_untangle(const MeshTopology& topology, UntangleMethod method) {
     if (method == UntangleMethod::guaranteed) return {};
-    const bool is_signed = method == UntangleMethod::signed_angles;
     for (const ElementBlock& block : topology.blocks()) {
         if (dimension(block.type.shape) != topology.dimension()) continue;
-        if (block.type.shape == Shape::triangle && block.type.order >= 2 && (!is_signed || block.type.order <= 3))
-            continue;
-        const QString text =
-            is_signed ? tr("Signed angles untangle curved triangles of order 2 and 3; this mesh has %1 elements.")
-                      : tr("Unsigned angles untangle curved triangles; this mesh has %1 elements.");
-        return text.arg(QString::fromStdString(name(block.type)));
+        if (block.type.shape != Shape::triangle || block.type.order < 2)
+            return tr("Angles untangle curved triangles of order 2 and up; this mesh has %1 elements.")
+                .arg(QString::fromStdString(name(block.type)));
     }
     return {};
 }
