@@ -1,5 +1,7 @@
 #include "ui/panels/untangle_panel.h"
 
+#include <algorithm>
+
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
@@ -13,6 +15,8 @@
 
 namespace curvewright {
 namespace {
+
+constexpr int group_row_height = 36;
 
 enum class BoundaryChoice { fixed, slide, by_group };
 
@@ -54,8 +58,8 @@ void UntanglePanel::make_fields() {
     groups_->setSelectionMode(QAbstractItemView::NoSelection);
     groups_->header()->setStretchLastSection(false);
     groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-    groups_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
-    groups_->setMaximumHeight(150);
+    groups_->header()->setSectionResizeMode(1, QHeaderView::Fixed);
+    groups_->header()->resizeSection(1, 110);
     improves_ = new QCheckBox(tr("Improve the worst elements afterwards"));
     improves_->setObjectName(QStringLiteral("improves"));
     improves_->setChecked(guaranteed.improves);
@@ -151,6 +155,7 @@ void UntanglePanel::list_groups() {
     for (const QString& name : names) {
         auto* item = new QTreeWidgetItem(groups_, {name});
         item->setToolTip(0, name);
+        item->setSizeHint(1, {110, group_row_height});
         auto* mode = new QComboBox;
         mode->addItem(tr("Stays"), int(BoundaryMode::fixed));
         mode->addItem(tr("Slides"), int(BoundaryMode::slide));
@@ -159,6 +164,9 @@ void UntanglePanel::list_groups() {
         groups_->setItemWidget(item, 1, mode);
         group_modes_.push_back(mode);
     }
+    constexpr qsizetype rows_shown = 4;  // more can be scrolled to
+    groups_->setFixedHeight(static_cast<int>(std::clamp<qsizetype>(names.size(), 1, rows_shown)) * group_row_height +
+                            4);
 }
 
 BoundaryRules UntanglePanel::boundary_rules() const {
