@@ -282,7 +282,7 @@ class UntangleTest : public QObject {
     void tetrahedra_are_untangled_and_can_be_cancelled() {
         UntangleUnderTest test;
         test.open_deformed(
-            test.file("tetrahedra.msh", cube_mesh(4, 2)),
+            test.file("tetrahedra.msh", cube_mesh(6, 2)),
             test.file(
                 "dent.json",
                 R"json({"operations": [{"group": "z0", "type": "expression", "z": "z + 0.15 * (sin(4 * pi * x) * sin(4 * pi * y))^2"}]})json"));
@@ -295,6 +295,22 @@ class UntangleTest : public QObject {
         QTest::keyClick(test.window.get(), Qt::Key_Escape);
         QTRY_COMPARE(cancelled.count(), 1);
         QCOMPARE(test.document().history()->count(), 1);
+        QCOMPARE(test.state().mesh->coordinates(), tangled.coordinates());
+
+        // Stop and keep: a step of the history, not worse than what was there.
+        QSignalSpy finished(&test.window->jobs().runner(), &JobRunner::finished);
+        progress.clear();
+        test.click("untangle_button");
+        QTRY_VERIFY(progress.count() > 0);
+        QVERIFY(test.window->jobs().runner().can_keep());
+        QTRY_VERIFY(test.shows("job_keep"));
+        test.click("job_keep");
+        QTRY_COMPARE(finished.count(), 1);
+        QCOMPARE(cancelled.count(), 1);
+        QCOMPARE(test.document().history()->count(), 2);
+        QVERIFY2(test.note.contains(QStringLiteral("best mesh so far is kept")), qPrintable(test.note));
+        QVERIFY(test.state().quality->summary.invalid <= assess_quality(tangled).summary.invalid);
+        test.click("tool_undo");
         QCOMPARE(test.state().mesh->coordinates(), tangled.coordinates());
 
         test.find<QCheckBox>("improves")->setChecked(false);

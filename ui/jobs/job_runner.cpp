@@ -23,15 +23,31 @@ JobRunner::~JobRunner() {
 }
 
 bool JobRunner::start(const QString& title, Work work) {
+    return launch(
+        title, [work = std::move(work)](const TaskContext& context, const std::stop_token&) { return work(context); },
+        false);
+}
+
+bool JobRunner::start_keepable(const QString& title, KeepableWork work) {
+    return launch(title, std::move(work), true);
+}
+
+void JobRunner::stop_and_keep() {
+    keep_.request_stop();
+}
+
+bool JobRunner::launch(const QString& title, KeepableWork work, bool can_keep) {
     if (is_running_) return false;
     if (thread_.joinable()) thread_.join();
     stop_ = std::stop_source();
+    keep_ = std::stop_source();
+    can_keep_ = can_keep;
     title_ = title;
     is_running_ = true;
     const int job = ++job_;
     emit running_changed(true);
     emit started(title);
-    thread_ = std::jthread([this, job, stop = stop_.get_token(), work = std::move(work)] {
+    thread_ = std::jthread([this, job, stop = stop_.get_token(), keep = keep_.get_token(), work = std::move(work)] {
         TaskContext context;
         context.stop = stop;
         // Called on this thread only (parallel loops report from one thread at a time).
@@ -48,7 +64,7 @@ bool JobRunner::start(const QString& title, Work work) {
         };
         auto outcome = std::make_shared<Outcome>();
         try {
-            outcome->finish = work(context);
+            outcome->finish = work(context, keep);
             outcome->was_cancelled = stop.stop_requested();
         } catch (const Cancelled&) {
             outcome->was_cancelled = true;

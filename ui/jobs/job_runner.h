@@ -20,6 +20,8 @@ class JobRunner : public QObject {
   public:
     using Finish = std::function<void()>;
     using Work = std::function<Finish(const TaskContext&)>;
+    /// Work that can be asked to stop early and return the best it has so far: `keep` is asked for that.
+    using KeepableWork = std::function<Finish(const TaskContext&, std::stop_token keep)>;
 
     explicit JobRunner(QObject* parent = nullptr);
     /// Asks a running job to stop and waits for its thread.
@@ -30,6 +32,11 @@ class JobRunner : public QObject {
 
     /// Starts a job. Returns false, and does nothing, if one is running.
     bool start(const QString& title, Work work);
+    bool start_keepable(const QString& title, KeepableWork work);
+    /// Whether the running job can stop_and_keep().
+    bool can_keep() const { return is_running_ && can_keep_; }
+    /// Asks the running job to end with what it has; finished() follows.
+    void stop_and_keep();
     /// Asks the running job to stop; cancelled() follows when it has. Its result is dropped even if it was complete.
     void cancel();
     /// cancel(), and returns only when the thread has ended; cancelled() is emitted before the return.
@@ -49,10 +56,12 @@ class JobRunner : public QObject {
   private:
     struct Outcome;
 
+    bool launch(const QString& title, KeepableWork work, bool can_keep);
     void deliver(int job, const std::shared_ptr<Outcome>& outcome);
 
     std::jthread thread_;
-    std::stop_source stop_;
+    std::stop_source stop_, keep_;
+    bool can_keep_ = false;
     QString title_;
     int job_ = 0;  ///< number of the last job; an outcome of an older one is late and dropped
     bool is_running_ = false;

@@ -147,12 +147,18 @@ bool MeshJobs::load_deformation(const QString& path) {
 }
 
 bool MeshJobs::run_step(const QString& title, bool applies_deformation,
-                        std::function<Step(const CurvedMesh&, const TaskContext&)> step) {
+                        std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep) {
     const MeshState start = document_.state();
     QStringList applied = start.applied_deformations;
     if (applies_deformation) applied << document_.deformation()->file_path;
-    return runner_.start(title, [this, start, applied, step = std::move(step)](const TaskContext& context) {
-        Step result = step(*start.mesh, context);
+    auto work = [this, start, applied, step = std::move(step)](const TaskContext& context,
+                                                               const std::stop_token& keep) {
+        // The step stops for either reason; what is done with its result is only stopped by cancelling.
+        std::stop_source either;
+        const auto stop = [&either] { either.request_stop(); };
+        const std::stop_callback on_cancel(context.stop, stop), on_keep(keep, stop);
+        Step result = step(*start.mesh, {either.get_token(), context.progress});
+        context.check();
         MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context, &start);
         state.applied_deformations = applied;
         QString text = result.note;
@@ -164,7 +170,9 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
             document_.apply(name, state, details);
             if (!text.isEmpty()) emit note(text);
         };
-    });
+    };
+    if (can_keep) return runner_.start_keepable(title, std::move(work));
+    return runner_.start(title, [work = std::move(work)](const TaskContext& context) { return work(context, {}); });
 }
 
 bool MeshJobs::deform() {
@@ -225,9 +233,13 @@ bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOpt
 
 bool MeshJobs::untangle(const UntangleOptions& options) {
     if (!why_not_untangle(method_of(options)).isEmpty()) return false;
-    return run_step(tr("Untangling"), false, [options](const CurvedMesh& mesh, const TaskContext& context) {
-        return curvewright::untangle(mesh, options, context);
-    });
+    const bool can_keep = method_of(options) == UntangleMethod::guaranteed;
+    return run_step(
+        tr("Untangling"), false,
+        [options](const CurvedMesh& mesh, const TaskContext& context) {
+            return curvewright::untangle(mesh, options, context);
+        },
+        can_keep);
 }
 
 bool MeshJobs::flip() {

@@ -63,8 +63,9 @@ class MeshJobs : public QObject {
     void note(const QString& text);
 
   private:
+    /// can_keep: where the context says stop, the step returns the best it has instead of throwing.
     bool run_step(const QString& title, bool applies_deformation,
-                  std::function<Step(const CurvedMesh&, const TaskContext&)> step);
+                  std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false);
 
     MeshDocument& document_;
     JobRunner runner_;

@@ -31,7 +31,9 @@ QString describe_untangling(const GuaranteedResult& result, const GuaranteedOpti
                             const MeshTopology& topology) {
     QStringList text;
     const QString valid = seconds_text(result.valid_seconds), improved = seconds_text(result.improve_seconds);
-    if (!result.unmended.empty())
+    if (result.reason == StopReason::cancelled)
+        text << tr("Stopped on request; the best mesh so far is kept.");
+    else if (!result.unmended.empty())
         text << tr("Stopped after %1.").arg(valid) << describe_unmended(result.unmended, topology);
     else if (options.improves)
         text << tr("Valid after %1; improved in %2.").arg(valid, improved);
@@ -57,7 +59,8 @@ QString describe_passes(const UntangleResult& result) {
     return {};
 }
 
-Step run(const CurvedMesh& mesh, const GuaranteedOptions& options, const TaskContext& context) {
+Step run(const CurvedMesh& mesh, GuaranteedOptions options, const TaskContext& context) {
+    options.keeps_best_on_cancel = true;
     GuaranteedResult result = untangle_guaranteed(mesh, options, nullptr, context);
     Step step;
     step.name = tr("Untangle, guaranteed");

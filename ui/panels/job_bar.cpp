@@ -17,26 +17,34 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QWidget(parent) {
     progress_->setTextVisible(false);
     progress_->setRange(0, 1000);
     progress_->setFixedWidth(160);
-    cancel_ = new QPushButton(tr("Cancel"));
-    cancel_->setObjectName(QStringLiteral("job_cancel"));
-    cancel_->setProperty("link", true);
-    cancel_->setCursor(Qt::PointingHandCursor);
-    cancel_->setToolTip(tr("Stop the job; the mesh stays as it is (Esc)"));
+    const auto make_link = [](const QString& text, const char* object_name, const QString& tip) {
+        auto* button = new QPushButton(text);
+        button->setObjectName(QLatin1String(object_name));
+        button->setProperty("link", true);
+        button->setCursor(Qt::PointingHandCursor);
+        button->setToolTip(tip);
+        return button;
+    };
+    keep_ = make_link(tr("Stop and keep"), "job_keep", tr("Stop the job and take the best mesh so far"));
+    cancel_ = make_link(tr("Cancel"), "job_cancel", tr("Stop the job; the mesh stays as it is (Esc)"));
 
     auto* layout = new QHBoxLayout(this);
     layout->setContentsMargins(8, 0, 8, 0);
     layout->setSpacing(8);
     layout->addWidget(text_);
     layout->addWidget(progress_);
+    layout->addWidget(keep_);
     layout->addWidget(cancel_);
     hide();
 
     delay_.setSingleShot(true);
     delay_.setInterval(150);
     connect(&delay_, &QTimer::timeout, this, &QWidget::show);
-    connect(&runner, &JobRunner::started, this, [this](const QString& title) {
+    connect(&runner, &JobRunner::started, this, [this, &runner](const QString& title) {
         text_->setText(title + QStringLiteral("…"));
         progress_->setRange(0, 0);
+        keep_->setVisible(runner.can_keep());
+        keep_->setEnabled(true);
         cancel_->setEnabled(true);
         delay_.start();
     });
@@ -50,7 +58,13 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QWidget(parent) {
         delay_.stop();
         hide();
     });
+    connect(keep_, &QPushButton::clicked, this, [this, &runner] {
+        keep_->setEnabled(false);
+        text_->setText(tr("Stopping…"));
+        runner.stop_and_keep();
+    });
     connect(cancel_, &QPushButton::clicked, this, [this, &runner] {
+        keep_->setEnabled(false);
         cancel_->setEnabled(false);
         text_->setText(tr("Stopping…"));
         runner.cancel();

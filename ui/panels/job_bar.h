@@ -11,7 +11,7 @@ class QPushButton;
 
 namespace curvewright {
 
-/// Progress and Cancel of the running job. Jobs that end at once never show it.
+/// Progress and Cancel of the running job, and "Stop and keep" where the job can. Jobs that end at once never show it.
 class JobBar : public QWidget {
     Q_OBJECT
 
@@ -21,7 +21,7 @@ class JobBar : public QWidget {
   private:
     QLabel* text_ = nullptr;
     QProgressBar* progress_ = nullptr;
-    QPushButton* cancel_ = nullptr;
+    QPushButton *keep_ = nullptr, *cancel_ = nullptr;
     QTimer delay_;
 };
 
