@@ -13,6 +13,7 @@
 #include "ui/document/mesh_text.h"
 #include "ui/document/number_format.h"
 #include "ui/panels/histogram_widget.h"
+#include "ui/panels/form_fields.h"
 #include "ui/panels/operation_panels.h"
 
 using namespace curvewright;
