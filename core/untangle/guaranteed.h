@@ -61,11 +61,11 @@ struct GuaranteedResult {
     StopReason reason = StopReason::converged;
 };
 
-/// Untangles triangles and tetrahedra of any order: minimises the foldover energy (see DistortionOptions) over all
-/// nodes near the damage that may move, with eps falling as the least determinant rises, until the Bézier certificate
-/// of every element says valid; where it finds an element invalid between the samples, its worst point becomes a
-/// sample. Then raises the least scaled Jacobian by maximising a soft minimum of the elements' evenness together with
-/// the energy. The ideal elements are the straight-sided ones on the corners of the mesh.
+/// Untangles meshes of any shape but pyramids, of any order: minimises the foldover energy (see DistortionOptions) over
+/// all nodes near the damage that may move, with eps falling as the least determinant rises, until the Bézier
+/// certificate of every element says valid; where it finds an element invalid between the samples, its worst point
+/// becomes a sample. Then raises the least scaled Jacobian by maximising a soft minimum of the elements' evenness
+/// together with the energy. The ideal elements are the straight-sided ones on the corners of the mesh.
 ///
 /// The boundary stays bit for bit unless the options say otherwise; sliding nodes stay on the boundary as it was read
 /// (see BoundaryShape), so the new boundary interpolates it. Elements that are proved to be impossible are left out of
