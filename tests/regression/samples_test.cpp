@@ -9,6 +9,7 @@
 #include "core/io/deformation_file.h"
 #include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
+#include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/warp/warp.h"
 
@@ -39,9 +40,15 @@ TEST(Samples, CardsTellTheTruth) {
         CurvedMesh result = mesh;
         if (is_untangling) {
             EXPECT_NEAR(assess_quality(start).summary.min, card["start_min_scaled_jacobian"].get<double>(), 2e-3);
-            SignedAngleOptions options;
-            options.beta = card["beta"];
-            result = start.with_coordinates(untangle_signed_angles(start, options).coordinates);
+            if (card.contains("beta")) {
+                SignedAngleOptions options;
+                options.beta = card["beta"];
+                result = start.with_coordinates(untangle_signed_angles(start, options).coordinates);
+            } else {
+                GuaranteedOptions options;
+                options.improves = false;
+                result = start.with_coordinates(untangle_guaranteed(start, options).coordinates);
+            }
         } else {
             result = mesh.with_coordinates(warp(mesh, target).coordinates);
         }

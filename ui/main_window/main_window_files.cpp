@@ -125,7 +125,10 @@ void MainWindow::open_sample(const Sample& sample) {
         request.apply_deformation = is_untangle && !sample.is_deformed;
         request.is_starting_point = true;
         request.then = [this, sample, is_untangle] {
-            if (sample.beta) untangle_panel_->set_beta(*sample.beta);
+            if (sample.beta)
+                untangle_panel_->set_beta(*sample.beta);
+            else
+                untangle_panel_->choose_guaranteed();
             show_tab(is_untangle ? QStringLiteral("untangle") : QStringLiteral("warp"));
         };
         jobs_.open(request);

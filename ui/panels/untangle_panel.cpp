@@ -220,4 +220,8 @@ void UntanglePanel::set_beta(double beta) {
     beta_->setValue(beta);
 }
 
+void UntanglePanel::choose_guaranteed() {
+    method_->setCurrentIndex(method_->findData(int(UntangleMethod::guaranteed)));
+}
+
 }  // namespace curvewright

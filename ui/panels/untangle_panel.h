@@ -22,6 +22,7 @@ class UntanglePanel : public OperationPanel {
     UntangleOptions options() const;
     /// Chooses signed angles with this weight.
     void set_beta(double beta);
+    void choose_guaranteed();
 
   private:
     void make_fields();
