@@ -1,7 +1,6 @@
 // The tables of docs/benchmarks/warp.md: how long warps take, against the methods of the literature in the same run.
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,6 +10,32 @@
 #include "benchmarks/warp_tables/measurements.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+
+namespace curvewright::benchmarks {
+namespace {
+
+std::string introduction(const Settings& settings) {
+    return fmt::format(
+        R"(# The speed of warps
+
+Written by `curvewright-warp-tables{}` ({}, {} threads, compiler {}).{} All numbers
+of a table come from one run; short measurements are the best of several. The reference is the method of the literature:
+Algorithm 3 (Newton's method on the full KKT system of every node) for convex weights, Eigen's SparseLU with COLAMD on the
+matrix of all interior nodes for the linear system. SparseLU uses one thread, whatever there is.
+
+```
+cmake --preset release -DCURVEWRIGHT_BUILD_BENCHMARKS=ON && cmake --build build --target curvewright-warp-tables
+sample_meshes/families/generate.sh          # meshes of the families, with Gmsh
+build/bin/curvewright-warp-tables --out docs/benchmarks --reference-limit {}
+```
+
+)",
+        settings.is_quick ? " --quick" : "", processor(), settings.threads, __VERSION__,
+        load_remark(settings.load_before), settings.reference_limit);
+}
+
+}  // namespace
+}  // namespace curvewright::benchmarks
 
 int main(int argc, char** argv) {
     using namespace curvewright;
@@ -36,23 +61,21 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag("--quick", settings.is_quick, "Small meshes, less than a minute");
     CLI11_PARSE(app, argc, argv);
-    if (getloadavg(&settings.load_before, 1) == 1 && settings.load_before > 0.5)
-        tell(fmt::format("The machine is busy (load {:.1f}); times will be too long.", settings.load_before));
-    const auto is_wanted = [&](const char* name) {
-        return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
-    };
-    try {
-        Report report;
-        if (is_wanted("million")) measure_million(settings, report);
-        set_thread_count(settings.threads);
-        if (is_wanted("weights")) measure_weights(settings, report);
-        if (is_wanted("circle")) measure_scaling(settings, 2, report);
-        if (is_wanted("sphere")) measure_scaling(settings, 3, report);
-        if (is_wanted("moving_sphere")) measure_moving_sphere(settings, report);
-        if (is_wanted("response")) measure_responses(settings, report);
-        report.finish(settings, out);
-    } catch (const std::exception& error) {
-        tell(error.what());
-        return 1;
-    }
+    settings.load_before = load_before_run();
+    return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+};
+try {
+    Report report;
+    if (is_wanted("million")) measure_million(settings, report);
+    set_thread_count(settings.threads);
+    if (is_wanted("weights")) measure_weights(settings, report);
+    if (is_wanted("circle")) measure_scaling(settings, 2, report);
+    if (is_wanted("sphere")) measure_scaling(settings, 3, report);
+    if (is_wanted("moving_sphere")) measure_moving_sphere(settings, report);
+    if (is_wanted("response")) measure_responses(settings, report);
+    report.finish({"warp", introduction(settings)}, out);
+} catch (const std::exception& error) {
+    tell(error.what());
+    return 1;
+}
 }

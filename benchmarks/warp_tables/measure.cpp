@@ -1,8 +1,5 @@
 #include "benchmarks/warp_tables/measure.h"
 
-#include <cstdio>
-
-#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include "core/base/stopwatch.h"
@@ -21,11 +18,6 @@ double peak_memory_mb() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-void tell(const std::string& line) {
-    fmt::print(stderr, "{}\n", line);
-    std::fflush(stderr);
 }
 
 }  // namespace curvewright::benchmarks

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "benchmarks/warp_tables/report.h"
+#include "benchmarks/tables/report.h"
 #include "benchmarks/warp_tables/settings.h"
 
 namespace curvewright::benchmarks {

@@ -1,4 +1,4 @@
-#include "benchmarks/warp_tables/table.h"
+#include "benchmarks/tables/table.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "benchmarks/warp_tables/plot.h"
+#include "benchmarks/tables/plot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "benchmarks/warp_tables/table.h"
+#include "benchmarks/tables/table.h"
 
 namespace curvewright::benchmarks {
 namespace {
