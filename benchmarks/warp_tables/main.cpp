@@ -62,20 +62,21 @@ int main(int argc, char** argv) {
     app.add_flag("--quick", settings.is_quick, "Small meshes, less than a minute");
     CLI11_PARSE(app, argc, argv);
     settings.load_before = load_before_run();
-    return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
-};
-try {
-    Report report;
-    if (is_wanted("million")) measure_million(settings, report);
-    set_thread_count(settings.threads);
-    if (is_wanted("weights")) measure_weights(settings, report);
-    if (is_wanted("circle")) measure_scaling(settings, 2, report);
-    if (is_wanted("sphere")) measure_scaling(settings, 3, report);
-    if (is_wanted("moving_sphere")) measure_moving_sphere(settings, report);
-    if (is_wanted("response")) measure_responses(settings, report);
-    report.finish({"warp", introduction(settings)}, out);
-} catch (const std::exception& error) {
-    tell(error.what());
-    return 1;
-}
+    const auto is_wanted = [&](const char* name) {
+        return only.empty() || std::find(only.begin(), only.end(), name) != only.end();
+    };
+    try {
+        Report report;
+        if (is_wanted("million")) measure_million(settings, report);
+        set_thread_count(settings.threads);
+        if (is_wanted("weights")) measure_weights(settings, report);
+        if (is_wanted("circle")) measure_scaling(settings, 2, report);
+        if (is_wanted("sphere")) measure_scaling(settings, 3, report);
+        if (is_wanted("moving_sphere")) measure_moving_sphere(settings, report);
+        if (is_wanted("response")) measure_responses(settings, report);
+        report.finish({"warp", introduction(settings)}, out);
+    } catch (const std::exception& error) {
+        tell(error.what());
+        return 1;
+    }
 }
