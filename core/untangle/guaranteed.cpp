@@ -363,8 +363,9 @@ class Untangler {
             lbfgs.max_iterations = 50;
             if (untangler_.observer_) objective_before_ = objective.evaluate(variables_, distortion, gradient);
             advance(lbfgs);  // the energy alone: evens the patch out
-            lbfgs.max_iterations = 200;
-            lbfgs.relative_decrease = 3e-5;
+            lbfgs.max_iterations = 600;
+            // Small patches go on until another unit or origin leads to the same minimum; large ones would take long.
+            lbfgs.relative_decrease = std::clamp(5e-12 * untangler_.work_of({patch_}), 1e-6, 3e-5);
             lbfgs.history = 10;
             distortion.energy_weight = shape_weight;
             distortion.mean_weight = options.mean_weight;

@@ -25,9 +25,9 @@ struct GuaranteedOptions {
     double improve_work = 4e6;
     /// Weight of the shape energy against the least scaled Jacobian: small values raise the scaled Jacobian further, at
     /// the price of evenly stretched slivers.
-    double shape_weight = 0.036;
+    double shape_weight = 0.034;
     /// Weight of the elements' scaled Jacobians added up, so that the average rises with the least.
-    double mean_weight = 0.007;
+    double mean_weight = 0.006;
     /// Worst mean ratio (see assess_shape; the ideal is the straight-sided input) that improving may leave in a patch;
     /// 0 = no floor. The shape weight is raised where it does not suffice. Where no improvement reaches the floor, the
     /// shape is at least not lowered.
