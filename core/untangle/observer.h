@@ -83,6 +83,7 @@ struct FaceNodesMoved {
     std::vector<Index> nodes;
     std::vector<Position> positions;
 };
+/// The state after a pass. A method that put back an earlier, better state did so at the end of its last pass.
 struct PassEnded {
     int pass = 0;
     double relative_change = 0.0;  ///< |X_k - X_{k-1}|_F / |X_k|_F

@@ -55,20 +55,24 @@ class AutomaticUntangler {
     UntangleResult run() {
         tell(event::Started{&mesh_});
         // A patch with a tangled triangle is judged by its soft minimum, so the mesh's minimum may fall on the way to
-        // validity: the best state of all passes is returned.
+        // validity: the best state of all passes is returned, and the last pass ends with it.
         UntangleResult result{x_, 0, StopReason::pass_limit};
         QualitySummary best = assess_quality(mesh_, {}, context_).summary;
         for (int pass = 1; pass <= options_.max_passes && result.reason == StopReason::pass_limit; ++pass) {
             const Coordinates before = x_;
             tell(event::PassBegan{pass});
             if (!move_edges(pass)) result.reason = StopReason::converged;
-            const QualitySummary after = assess_quality(mesh_.with_coordinates(x_), {}, context_).summary;
-            tell(event::PassEnded{pass, (x_ - before).norm() / x_.norm(), after.min, after.invalid, after.undecided,
+            QualitySummary state = assess_quality(mesh_.with_coordinates(x_), {}, context_).summary;
+            if (!is_worse(state, best)) {
+                best = state;
+                result.coordinates = x_;
+            } else if (pass == options_.max_passes || result.reason != StopReason::pass_limit) {
+                x_ = result.coordinates;
+                state = best;
+            }
+            tell(event::PassEnded{pass, (x_ - before).norm() / x_.norm(), state.min, state.invalid, state.undecided,
                                   &x_});
             result.passes = pass;
-            if (is_worse(after, best)) continue;
-            best = after;
-            result.coordinates = x_;
         }
         tell(event::Finished{result.reason, result.passes});
         return result;
