@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -12,60 +13,85 @@
 
 namespace curvewright {
 
-QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options, const TaskContext& context) {
+namespace {
+
+/// Certifies elements(0) .. elements(count - 1) into the report, whose sign is set.
+template <class ElementAt>
+void certify(QualityReport& report, const MeshTopology& topology, const Coordinates& positions, std::size_t count,
+             const ElementAt& element_at, const QualityOptions& options, const TaskContext& context) {
     if (!(options.tolerance > 0.0))
         throw InvalidInput(
             fmt::format("The tolerance of the scaled Jacobian is {}; it must be positive.", options.tolerance));
-    const MeshTopology& topology = mesh.topology();
-    QualityReport report;
-    report.orientation = find_orientation(mesh);
-    report.orientation_sign = options.orientation_sign.value_or(orientation_sign(report.orientation, mesh));
-    const double sign = report.orientation_sign;
-    report.elements.resize(static_cast<std::size_t>(topology.element_count()));
-
     // An element of many nodes is much work (as the square of their number, about): a piece of such is made small.
     int most_nodes = 1;
     for (const ElementBlock& block : topology.data().blocks)
         if (dimension(block.type.shape) == topology.dimension())
             most_nodes = std::max(most_nodes, node_count(block.type));
     const auto grain = static_cast<std::size_t>(std::clamp(100000 / (most_nodes * most_nodes), 4, 256));
-    parallel_for(report.elements.size(), grain, context, "Certifying elements",
-                 [&](std::size_t begin, std::size_t end) {
-                     std::optional<JacobianBounds> bounds;
-                     ElementType type;
-                     Eigen::MatrixX3d x;
-                     for (std::size_t i = begin; i < end; ++i) {
-                         context.check();
-                         const auto element = static_cast<Index>(i);
-                         if (!bounds || type != topology.element_type(element)) {
-                             type = topology.element_type(element);
-                             bounds.emplace(type);
-                         }
-                         const auto nodes = topology.element_nodes(element);
-                         x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-                         for (std::size_t k = 0; k < nodes.size(); ++k)
-                             x.row(static_cast<Eigen::Index>(k)) = mesh.coordinates().row(nodes[k]);
-                         report.elements[i] = bounds->bound(x, sign, options);
-                     }
-                 });
-
-    QualitySummary& summary = report.summary;
-    if (!report.elements.empty()) {
-        summary.min = std::numeric_limits<double>::infinity();
-        summary.max = -summary.min;
-        double total = 0.0;
-        for (const ElementQuality& quality : report.elements) {
-            summary.min = std::min(summary.min, quality.scaled_jacobian);
-            summary.max = std::max(summary.max, quality.scaled_jacobian);
-            total += quality.scaled_jacobian;
-            if (quality.validity == Validity::valid) ++summary.valid;
-            if (quality.validity == Validity::invalid) ++summary.invalid;
-            if (quality.validity == Validity::undecided) ++summary.undecided;
+    parallel_for(count, grain, context, "Certifying elements", [&](std::size_t begin, std::size_t end) {
+        std::optional<JacobianBounds> bounds;
+        ElementType type;
+        Eigen::MatrixX3d x;
+        for (std::size_t i = begin; i < end; ++i) {
+            context.check();
+            const Index element = element_at(i);
+            if (!bounds || type != topology.element_type(element)) {
+                type = topology.element_type(element);
+                bounds.emplace(type);
+            }
+            const auto nodes = topology.element_nodes(element);
+            x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+                x.row(static_cast<Eigen::Index>(k)) = positions.row(nodes[k]);
+            report.elements[static_cast<std::size_t>(element)] = bounds->bound(x, report.orientation_sign, options);
         }
-        // Clamped: rounding must not push the mean past the extremes, nor an infinite sum out of the numbers.
-        summary.mean = std::clamp(total / static_cast<double>(report.elements.size()), summary.min, summary.max);
+    });
+}
+
+QualitySummary summarize(const std::vector<ElementQuality>& elements) {
+    QualitySummary summary;
+    if (elements.empty()) return summary;
+    summary.min = std::numeric_limits<double>::infinity();
+    summary.max = -summary.min;
+    double total = 0.0;
+    for (const ElementQuality& quality : elements) {
+        summary.min = std::min(summary.min, quality.scaled_jacobian);
+        summary.max = std::max(summary.max, quality.scaled_jacobian);
+        total += quality.scaled_jacobian;
+        if (quality.validity == Validity::valid) ++summary.valid;
+        if (quality.validity == Validity::invalid) ++summary.invalid;
+        if (quality.validity == Validity::undecided) ++summary.undecided;
     }
+    // Clamped: rounding must not push the mean past the extremes, nor an infinite sum out of the numbers.
+    summary.mean = std::clamp(total / static_cast<double>(elements.size()), summary.min, summary.max);
+    return summary;
+}
+
+}  // namespace
+
+QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options, const TaskContext& context) {
+    QualityReport report;
+    report.orientation = find_orientation(mesh);
+    report.orientation_sign = options.orientation_sign.value_or(orientation_sign(report.orientation, mesh));
+    report.elements.resize(static_cast<std::size_t>(mesh.topology().element_count()));
+    certify(
+        report, mesh.topology(), mesh.coordinates(), report.elements.size(),
+        [](std::size_t i) { return static_cast<Index>(i); }, options, context);
+    report.summary = summarize(report.elements);
     return report;
+}
+
+void update_quality(QualityReport& report, const MeshTopology& topology, const Coordinates& positions,
+                    std::span<const Index> elements, const QualityOptions& options, const TaskContext& context) {
+    if (report.elements.size() != static_cast<std::size_t>(topology.element_count()) ||
+        positions.rows() != topology.node_count())
+        throw InvalidInput(
+            fmt::format("A report of {} elements and {} positions do not belong to a mesh of {} elements "
+                        "and {} nodes.",
+                        report.elements.size(), positions.rows(), topology.element_count(), topology.node_count()));
+    certify(
+        report, topology, positions, elements.size(), [&](std::size_t i) { return elements[i]; }, options, context);
+    report.summary = summarize(report.elements);
 }
 
 std::vector<Index> QualityReport::worst(std::size_t count) const {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/base/task.h"
@@ -82,6 +83,15 @@ CurvedMesh flip_orientation(const CurvedMesh& mesh);
 /// Throws Unsupported (see require_assessable) and Cancelled.
 QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options = {},
                              const TaskContext& context = {});
+
+/// Brings a report up to date after some nodes have moved: certifies the given elements at their new positions and
+/// sums up anew. The orientation stays as reported, and J is multiplied with the report's sign whatever the options
+/// say. elements: those that have a node that moved, at least. positions: nodes × 3; 2D meshes keep their z.
+/// Multi-threaded. Throws InvalidInput for a report or positions of another mesh, and Cancelled; the report is then to
+/// be thrown away.
+void update_quality(QualityReport& report, const MeshTopology& topology, const Coordinates& positions,
+                    std::span<const Index> elements, const QualityOptions& options = {},
+                    const TaskContext& context = {});
 
 /// Equal bins over [lower, upper]; values outside count in the first and last bin.
 struct Histogram {

@@ -35,6 +35,10 @@ AffineMotion AffineMotion::shear(int axis, int along, double factor) {
 
 ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind,
                              const Eigen::Vector3d& origin, const TaskContext& context)
+    : ResponseField(warper, set, kind, origin, warper.mesh().coordinates(), context) {}
+
+ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind,
+                             const Eigen::Vector3d& origin, const Coordinates& start, const TaskContext& context)
     : dim_(warper.mesh().topology().dimension()),
       kind_(kind),
       origin_(origin),
@@ -42,6 +46,8 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
       node_count_(warper.mesh().topology().node_count()) {
     const CurvedMesh& mesh = warper.mesh();
     const Index nodes = mesh.topology().node_count();
+    if (start.rows() != nodes)
+        throw InvalidInput(fmt::format("The positions are {} rows; the mesh has {} nodes.", start.rows(), nodes));
     if (!set.weights.empty() && set.weights.size() != set.nodes.size())
         throw InvalidInput(
             fmt::format("The dragged set has {} nodes and {} weights.", set.nodes.size(), set.weights.size()));
@@ -63,7 +69,7 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
             throw InvalidInput(
                 fmt::format("The weight of the dragged node {} is not finite.", mesh.topology().node_tag(node).value));
         for (int f = 0; f < functions; ++f) {
-            const double value = f == 0 ? weight : weight * (mesh.coordinates()(node, f - 1) - origin[f - 1]);
+            const double value = f == 0 ? weight : weight * (start(node, f - 1) - origin[f - 1]);
             // Motion f along direction a: column a of its own group of columns.
             for (int a = 0; a < directions; ++a) motions(node, (f * directions + a) * directions + a) = value;
         }

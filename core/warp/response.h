@@ -43,6 +43,10 @@ class ResponseField {
     /// warper does not take as given (named) or for a wrong number of weights, SolverFailure, Cancelled.
     ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind,
                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero(), const TaskContext& context = {});
+    /// The same for a motion that begins at another state of the mesh than the one that the weights are of. start:
+    /// nodes × 3, the positions that apply() will be given.
+    ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind, const Eigen::Vector3d& origin,
+                  const Coordinates& start, const TaskContext& context = {});
 
     /// One frame: writes start + the response to the motion into the rows of the moving nodes of result; the other rows
     /// stay, so that the array of one frame serves the next. A result of another size becomes a copy of start first.

@@ -25,6 +25,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"core/tessellate", {"core/base", "core/basis", "core/mesh"}},
     {"core/linear", {"core/base"}},
     {"core/warp", {"core/base", "core/basis", "core/mesh", "core/quality", "core/linear"}},
+    {"core/edit", {"core/base", "core/basis", "core/mesh", "core/quality", "core/deform", "core/warp"}},
     {"core/optimize", {"core/base"}},
     {"core/untangle", {"core/base", "core/basis", "core/mesh", "core/quality", "core/optimize"}},
     {"core/io", {"core/base", "core/basis", "core/mesh", "core/quality", "core/deform"}},

@@ -229,7 +229,9 @@ TEST(ResponseField, Cancels) {
         EXPECT_EQ(phase, "Solving");
         source.request_stop();
     };
-    EXPECT_THROW(ResponseField(warper, set, ResponseKind::affine, {0, 0, 0}, {source.get_token(), stop}), Cancelled);
+    EXPECT_THROW(ResponseField(warper, set, ResponseKind::affine, Eigen::Vector3d::Zero(),
+                               TaskContext{source.get_token(), stop}),
+                 Cancelled);
     EXPECT_NO_THROW(ResponseField(warper, set, ResponseKind::affine));
 }
 
