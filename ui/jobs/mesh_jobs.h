@@ -37,6 +37,7 @@ class MeshJobs : public QObject {
 
     MeshDocument& document() { return document_; }
     JobRunner& runner() { return runner_; }
+    const JobRunner& runner() const { return runner_; }
 
     bool open(OpenRequest request);
     bool load_deformation(const QString& path);

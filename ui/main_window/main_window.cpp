@@ -23,6 +23,7 @@
 #include "ui/panels/untangle_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/panels/worst_table.h"
+#include "ui/tools/tool.h"
 
 namespace curvewright {
 namespace {
@@ -57,6 +58,8 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     : theme_(theme),
       dialogs_(std::move(dialogs)),
       jobs_(document_),
+      edit_(document_),
+      drag_(document_),
       samples_(SampleCatalog::load()),
       actions_(theme, this) {
     setObjectName(QStringLiteral("main_window"));
@@ -66,10 +69,12 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     build_center();
     build_docks();
     build_status_bar();
+    build_tools();
     restore_layout();
     connect_commands();
     connect_document();
     connect_panels();
+    connect_editing();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
         if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
@@ -140,6 +145,7 @@ void MainWindow::connect_document() {
 
     JobRunner& runner = jobs_.runner();
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
+    connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_tool);
     connect(&runner, &JobRunner::started, statusBar(), &QStatusBar::clearMessage);
     connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
         after_save_ = nullptr;
@@ -184,12 +190,8 @@ void MainWindow::show_opened() {
         dock->setVisible(has_mesh && !dock->property("closed_by_user").toBool());
         dock->toggleViewAction()->setEnabled(has_mesh);
     }
-    if (has_mesh && document_.state().mesh->topology().dimension() == 3)
-        hint_->setText(tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?"));
-    else if (has_mesh)
-        hint_->setText(tr("drag: move · wheel: zoom to the pointer · click: what is this element?"));
-    else
-        hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
+    choose_tool_for_mesh();
+    update_tool();
     statusBar()->clearMessage();
     if (has_mesh) view_->setFocus();
     update_title();
@@ -208,8 +210,7 @@ void MainWindow::show_state() {
         banner_->show_warning(state.quality_note, {});
     } else if (state.quality) {
         const QualitySummary& summary = state.quality->summary;
-        verdict_->setText(validity_sentence(summary));
-        set_tone(verdict_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
+        show_verdict(summary);
         if (state.quality->orientation == Orientation::negative)
             banner_->show_warning(
                 tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
@@ -220,6 +221,7 @@ void MainWindow::show_state() {
                                      "minority count as tangled."),
                                   {});
     }
+    if (Tool* tool = current_tool()) tool->refresh();
     update_commands();
 }
 
@@ -229,7 +231,7 @@ void MainWindow::update_title() {
 }
 
 void MainWindow::update_commands() {
-    const bool is_idle = !jobs_.runner().is_running(), has_mesh = document_.has_mesh();
+    const bool is_idle = !jobs_.runner().is_running() && !drag_.is_active(), has_mesh = document_.has_mesh();
     for (const CommandId id : {CommandId::open, CommandId::load_deformation}) actions_[id]->setEnabled(is_idle);
     actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::close_mesh})
@@ -247,7 +249,9 @@ void MainWindow::update_commands() {
     actions_[CommandId::warp]->setEnabled(is_idle && warp_panel_->why_not().isEmpty());
     actions_[CommandId::untangle]->setEnabled(is_idle && untangle_panel_->why_not().isEmpty());
     actions_[CommandId::flip]->setEnabled(is_idle && has_mesh && document_.state().quality);
-    actions_[CommandId::stop]->setEnabled(!is_idle);
+    actions_[CommandId::stop]->setEnabled(jobs_.runner().is_running());
+    for (const auto& [id, tool] : tools_) actions_[id]->setEnabled(has_mesh);
+    actions_[CommandId::soft]->setEnabled(has_mesh);
     mesh_panel_->set_history_enabled(is_idle);
 
     const auto step_tip = [](QAction* action, const QString& verb, const QString& step) {
@@ -334,7 +338,8 @@ void MainWindow::tell_element(std::optional<Index> element) {
 }
 
 void MainWindow::show_tab(const QString& name) {
-    tabs_->setCurrentIndex(name == QLatin1String("untangle") ? 2 : name == QLatin1String("warp") ? 1 : 0);
+    for (int i = 0; i < tabs_->count(); ++i)
+        if (tabs_->widget(i)->objectName() == name + QLatin1String("_tab")) tabs_->setCurrentIndex(i);
 }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {

@@ -1,13 +1,16 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <optional>
 
 #include <QMainWindow>
 
+#include "ui/document/edit_state.h"
 #include "ui/document/mesh_document.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
+#include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
 #include "ui/main_window/commands.h"
 #include "ui/main_window/dialogs.h"
@@ -25,10 +28,13 @@ namespace curvewright {
 class Banner;
 class ClipBar;
 class DeformPanel;
+class EditPanel;
 class MeshPanel;
 class MeshView;
+class PointerTag;
 class QualityPanel;
 class StartPage;
+class Tool;
 class UntanglePanel;
 class WarpPanel;
 class WorstTable;
@@ -43,6 +49,8 @@ class MainWindow : public QMainWindow {
 
     MeshDocument& document() { return document_; }
     MeshJobs& jobs() { return jobs_; }
+    EditState& edit() { return edit_; }
+    LiveDrag& drag() { return drag_; }
     MeshView& view() { return *view_; }
     QAction* action(CommandId id) const { return actions_[id]; }
 
@@ -51,7 +59,7 @@ class MainWindow : public QMainWindow {
     void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
     void open_sample(const Sample& sample);
     const SampleCatalog& samples() const { return samples_; }
-    /// Brings up a tab of the right panel: "deform", "warp" or "untangle".
+    /// Brings up a tab of the right panel: "edit", "deform", "warp" or "untangle".
     void show_tab(const QString& name);
     /// Writes what the view shows, at `scale` times its size; tells the user if that fails.
     bool save_picture(const QString& path, int scale);
@@ -93,6 +101,18 @@ class MainWindow : public QMainWindow {
     void tell_element(std::optional<Index> element);
     void place_clip_bar();
 
+    // main_window_editing.cpp
+    void build_tools();
+    void connect_editing();
+    /// The tool that the view is to have now; null = the camera alone.
+    Tool* current_tool() const;
+    QString tool_setting() const;
+    void choose_tool_for_mesh();
+    void update_tool();
+    void update_hint();
+    void show_frame(const Coordinates& positions, const QualityReport* quality);
+    void show_verdict(const QualitySummary& summary);
+
     // main_window_files.cpp
     void ask_open();
     void ask_load_deformation();
@@ -109,6 +129,8 @@ class MainWindow : public QMainWindow {
     Dialogs dialogs_;
     MeshDocument document_;
     MeshJobs jobs_;
+    EditState edit_;
+    LiveDrag drag_;
     RecentFiles recent_;
     SampleCatalog samples_;
     CommandActions actions_;
@@ -119,6 +141,9 @@ class MainWindow : public QMainWindow {
     Banner* banner_ = nullptr;
     MeshView* view_ = nullptr;
     ClipBar* clip_bar_ = nullptr;
+    PointerTag* pointer_tag_ = nullptr;
+    std::map<CommandId, Tool*> tools_;
+    EditPanel* edit_panel_ = nullptr;
     MeshPanel* mesh_panel_ = nullptr;
     QTabWidget* tabs_ = nullptr;
     DeformPanel* deform_panel_ = nullptr;

@@ -21,6 +21,7 @@
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/banner.h"
 #include "ui/panels/clip_bar.h"
+#include "ui/panels/edit_panel.h"
 #include "ui/panels/job_bar.h"
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
@@ -107,7 +108,7 @@ void MainWindow::build_tool_bar() {
     bar->setMovable(false);
     bar->setIconSize({20, 20});
     bar->setContextMenuPolicy(Qt::PreventContextMenu);
-    for (int group = 1; group <= 4; ++group) {
+    for (int group = 1; group <= 5; ++group) {
         if (group > 1) bar->addSeparator();
         for (const Command& command : commands()) {
             if (command.tool_group != group) continue;
@@ -156,6 +157,7 @@ QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt:
 
 void MainWindow::build_docks() {
     mesh_panel_ = new MeshPanel(document_);
+    edit_panel_ = new EditPanel(edit_);
     deform_panel_ = new DeformPanel(jobs_);
     warp_panel_ = new WarpPanel(jobs_);
     untangle_panel_ = new UntanglePanel(jobs_);
@@ -167,9 +169,19 @@ void MainWindow::build_docks() {
     tabs_->setDocumentMode(true);
     tabs_->tabBar()->setExpanding(true);
     tabs_->tabBar()->setDrawBase(false);
-    tabs_->addTab(scrolling(deform_panel_), tr("Deform"));
-    tabs_->addTab(scrolling(warp_panel_), tr("Warp"));
-    tabs_->addTab(scrolling(untangle_panel_), tr("Untangle"));
+    const struct {
+        QWidget* panel;
+        const char* name;
+        QString title;
+    } tabs[] = {{edit_panel_, "edit_tab", tr("Edit")},
+                {deform_panel_, "deform_tab", tr("Deform")},
+                {warp_panel_, "warp_tab", tr("Warp")},
+                {untangle_panel_, "untangle_tab", tr("Untangle")}};
+    for (const auto& tab : tabs) {
+        QScrollArea* area = scrolling(tab.panel);
+        area->setObjectName(QLatin1String(tab.name));
+        tabs_->addTab(area, tab.title);
+    }
     auto* right = new QSplitter(Qt::Vertical);
     right->setObjectName(QStringLiteral("right_splitter"));
     right->addWidget(tabs_);

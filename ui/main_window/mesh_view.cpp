@@ -3,11 +3,13 @@
 #include <array>
 #include <cstdlib>
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions_3_2_Core>
 #include <QOpenGLVersionFunctionsFactory>
+#include <QPointer>
 #include <QTimer>
 #include <QVariantAnimation>
 #include <QWheelEvent>
@@ -22,6 +24,8 @@
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
+
+#include "ui/tools/tool.h"
 
 namespace curvewright {
 namespace {
@@ -76,6 +80,8 @@ struct MeshView::Parts {
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
     bool may_be_click = false;
+    QPointer<Tool> tool;
+    bool tool_has_mouse = false;  ///< between a press that the tool took and its release
 };
 
 MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
@@ -169,6 +175,93 @@ void MeshView::show_state(const MeshState& state) {
     parts_->flight.stop();
     parts_->scene.set_mesh(state.mesh.get(), state.quality.get());
     parts_->state = state;
+    request_frame();
+}
+
+void MeshView::show_frame(const Coordinates& positions, const QualityReport* quality) {
+    parts_->scene.show_frame(positions, quality);
+    request_frame();
+}
+
+void MeshView::set_tool(Tool* tool) {
+    Parts& parts = *parts_;
+    if (parts.tool == tool) return;
+    parts.tool_has_mouse = false;
+    if (parts.tool) {
+        parts.tool->cancel();
+        parts.tool->leave();
+    }
+    parts.tool = tool;
+    setCursor({});
+    if (tool) tool->enter();
+}
+
+std::array<double, 2> MeshView::to_device(QPointF position) const {
+    const double ratio = devicePixelRatioF();
+    return {position.x() * ratio, parts_->window->GetSize()[1] - 1 - position.y() * ratio};
+}
+
+QPointF MeshView::from_device(double x, double y) const {
+    const double ratio = devicePixelRatioF();
+    return {x / ratio, (parts_->window->GetSize()[1] - 1 - y) / ratio};
+}
+
+bool MeshView::is_flat() const {
+    return parts_->scene.is_flat();
+}
+
+QPointF MeshView::to_display(const Eigen::RowVector3d& point) const {
+    const Eigen::Vector4d at = parts_->scene.project(point);
+    return from_device(at[0], at[1]);
+}
+
+Eigen::RowVector3d MeshView::to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const {
+    const auto [x, y] = to_device(position);
+    return parts_->scene.unproject(x, y, at_depth_of);
+}
+
+double MeshView::units_per_pixel(const Eigen::RowVector3d& at) const {
+    return parts_->scene.units_per_pixel(at) * devicePixelRatioF();
+}
+
+Eigen::Matrix3d MeshView::view_axes() const {
+    return parts_->scene.view_axes();
+}
+
+std::optional<Index> MeshView::node_at(QPointF position, double radius,
+                                       const std::function<bool(Index)>& accepts) const {
+    const auto [x, y] = to_device(position);
+    return parts_->scene.pick_node(x, y, radius * devicePixelRatioF(), accepts);
+}
+
+std::optional<Index> MeshView::element_at(QPointF position) const {
+    const auto [x, y] = to_device(position);
+    return parts_->scene.pick_element(x, y);
+}
+
+std::vector<Index> MeshView::nodes_inside(const std::vector<QPointF>& polygon, bool see_through) const {
+    std::vector<std::array<double, 2>> corners;
+    for (const QPointF& corner : polygon) corners.push_back(to_device(corner));
+    return parts_->scene.nodes_inside(corners, see_through);
+}
+
+std::vector<Index> MeshView::elements_inside(const std::vector<QPointF>& polygon, bool see_through) const {
+    std::vector<std::array<double, 2>> corners;
+    for (const QPointF& corner : polygon) corners.push_back(to_device(corner));
+    return parts_->scene.elements_inside(corners, see_through);
+}
+
+void MeshView::show_marks(Marks marks, const std::vector<QPointF>& rubber) {
+    if (rubber.size() > 1) {
+        MarkLine line{{}, MarkRole::rubber, 1.0};
+        for (const QPointF& corner : rubber) {
+            const auto [x, y] = to_device(corner);
+            line.points.push_back({x, y, 0.0});
+        }
+        line.points.push_back(line.points.front());
+        marks.lines.push_back(std::move(line));
+    }
+    parts_->scene.set_marks(marks);
     request_frame();
 }
 
@@ -286,6 +379,7 @@ void MeshView::paintGL() {
     if (parts.is_stale) {
         parts.is_stale = false;
         parts.window->Render();
+        emit frame_drawn();
     }
     const int* size = parts.window->GetSize();
     parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
@@ -320,36 +414,88 @@ void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModif
 }
 
 void MeshView::mousePressEvent(QMouseEvent* event) {
-    parts_->flight.stop();
-    parts_->may_be_click = event->button() == Qt::LeftButton;
-    parts_->press_position = event->position();
+    Parts& parts = *parts_;
+    parts.flight.stop();
+    if (parts.tool_has_mouse) return;
+    parts.may_be_click = event->button() == Qt::LeftButton;
+    parts.press_position = event->position();
+    if (event->button() == Qt::LeftButton && parts.tool && parts.state.mesh &&
+        parts.tool->press({event->position(), event->modifiers(), event->button()})) {
+        parts.tool_has_mouse = true;
+        parts.may_be_click = false;
+        return;
+    }
     const auto vtk_event = event->button() == Qt::LeftButton    ? vtkCommand::LeftButtonPressEvent
                            : event->button() == Qt::RightButton ? vtkCommand::RightButtonPressEvent
                                                                 : vtkCommand::MiddleButtonPressEvent;
     send(vtk_event, event->position(), event->modifiers());
 }
 
+void MeshView::hover(QPointF position, Qt::KeyboardModifiers modifiers) {
+    if (parts_->tool && parts_->state.mesh) parts_->tool->hover(PointerEvent{position, modifiers});
+}
+
 void MeshView::mouseMoveEvent(QMouseEvent* event) {
-    if ((event->position() - parts_->press_position).manhattanLength() > click_distance) parts_->may_be_click = false;
+    Parts& parts = *parts_;
+    emit pointer_moved(event->position());
+    if (parts.tool_has_mouse) {
+        parts.tool->move({event->position(), event->modifiers(), Qt::LeftButton});
+        return;
+    }
+    if (event->buttons() == Qt::NoButton) hover(event->position(), event->modifiers());
+    if ((event->position() - parts.press_position).manhattanLength() > click_distance) parts.may_be_click = false;
     send(vtkCommand::MouseMoveEvent, event->position(), event->modifiers());
 }
 
 void MeshView::mouseReleaseEvent(QMouseEvent* event) {
+    Parts& parts = *parts_;
+    if (parts.tool_has_mouse) {
+        if (event->button() != Qt::LeftButton) return;
+        parts.tool_has_mouse = false;
+        parts.tool->release({event->position(), event->modifiers(), event->button()});
+        return;
+    }
     const auto vtk_event = event->button() == Qt::LeftButton    ? vtkCommand::LeftButtonReleaseEvent
                            : event->button() == Qt::RightButton ? vtkCommand::RightButtonReleaseEvent
                                                                 : vtkCommand::MiddleButtonReleaseEvent;
     send(vtk_event, event->position(), event->modifiers());
-    if (event->button() != Qt::LeftButton || !parts_->may_be_click || !parts_->state.mesh) return;
-    const double ratio = devicePixelRatioF();
-    makeCurrent();
-    const auto element = parts_->scene.pick_element(event->position().x() * ratio,
-                                                    parts_->window->GetSize()[1] - 1 - event->position().y() * ratio);
-    doneCurrent();
-    emit element_clicked(element);
+    // The camera may have moved: other things are under the mouse, handles have another size.
+    if (parts.tool) {
+        parts.tool->refresh();
+        hover(event->position(), event->modifiers());
+    }
+    if (event->button() == Qt::LeftButton && parts.may_be_click && parts.state.mesh)
+        emit element_clicked(element_at(event->position()));
+}
+
+void MeshView::keyPressEvent(QKeyEvent* event) {
+    Parts& parts = *parts_;
+    if (parts.tool && event->key() == Qt::Key_Escape && parts.tool->cancel()) {
+        parts.tool_has_mouse = false;
+        return;
+    }
+    if (parts.tool && parts.tool->key(event->key(), event->modifiers())) return;
+    QOpenGLWidget::keyPressEvent(event);
+}
+
+bool MeshView::event(QEvent* event) {
+    // While something is in hand the keys are the tool's, whatever else they are shortcuts of.
+    if (event->type() == QEvent::ShortcutOverride && parts_->tool_has_mouse) {
+        event->accept();
+        return true;
+    }
+    return QOpenGLWidget::event(event);
 }
 
 void MeshView::wheelEvent(QWheelEvent* event) {
     parts_->flight.stop();
+    const double steps = event->angleDelta().y() / 120.0;
+    if (parts_->tool && parts_->state.mesh &&
+        parts_->tool->wheel({event->position(), event->modifiers()},
+                            steps != 0.0 ? steps : event->angleDelta().x() / 120.0)) {
+        event->accept();
+        return;
+    }
     // Touch pads send many small turns: a notch is 120 of them.
     int& turned = parts_->wheel_turned;
     if ((event->angleDelta().y() > 0) != (turned > 0)) turned = 0;
@@ -357,9 +503,14 @@ void MeshView::wheelEvent(QWheelEvent* event) {
         send(turned > 0 ? vtkCommand::MouseWheelForwardEvent : vtkCommand::MouseWheelBackwardEvent, event->position(),
              event->modifiers());
     event->accept();
+    if (parts_->tool) {
+        parts_->tool->refresh();
+        hover(event->position(), event->modifiers());
+    }
 }
 
 void MeshView::leaveEvent(QEvent*) {
+    if (parts_->tool && !parts_->tool_has_mouse) parts_->tool->hover(std::nullopt);
     parts_->interactor->InvokeEvent(vtkCommand::LeaveEvent);
 }
 

@@ -9,12 +9,15 @@
 
 #include "ui/document/mesh_document.h"
 #include "ui/scene/mesh_scene.h"
+#include "ui/tools/canvas.h"
 
 namespace curvewright {
 
+class Tool;
+
 /// The picture of the mesh: a MeshScene in a Qt widget (a vtkGenericOpenGLRenderWindow that draws into the widget's
 /// framebuffer). Renders at most once per repaint of the window, and only if something has changed.
-class MeshView : public QOpenGLWidget {
+class MeshView : public QOpenGLWidget, public Canvas {
     Q_OBJECT
 
   public:
@@ -23,6 +26,10 @@ class MeshView : public QOpenGLWidget {
 
     /// Shows a state of the document; one without mesh shows nothing.
     void show_state(const MeshState& state);
+    /// A frame of a motion of the state shown: see MeshScene::show_frame.
+    void show_frame(const Coordinates& positions, const QualityReport* quality);
+    /// Who gets the left button, the wheel and the keys before the camera does; null = nobody. Not owned.
+    void set_tool(Tool* tool);
     /// The options to draw with; the pixel ratio is the view's own.
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
@@ -37,7 +44,24 @@ class MeshView : public QOpenGLWidget {
     /// What the view shows, drawn anew at `scale` times its size in device pixels. Null if nothing can be drawn.
     QImage picture(int scale);
 
+    bool is_flat() const override;
+    QPointF to_display(const Eigen::RowVector3d& point) const override;
+    Eigen::RowVector3d to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const override;
+    double units_per_pixel(const Eigen::RowVector3d& at) const override;
+    Eigen::Matrix3d view_axes() const override;
+    std::optional<Index> node_at(QPointF position, double radius,
+                                 const std::function<bool(Index node)>& accepts) const override;
+    std::optional<Index> element_at(QPointF position) const override;
+    std::vector<Index> nodes_inside(const std::vector<QPointF>& polygon, bool see_through) const override;
+    std::vector<Index> elements_inside(const std::vector<QPointF>& polygon, bool see_through) const override;
+    void show_marks(Marks marks, const std::vector<QPointF>& rubber) override;
+    void show_cursor(const QCursor& cursor) override { setCursor(cursor); }
+
   signals:
+    /// The mouse is there now, in the view's pixels.
+    void pointer_moved(QPointF position);
+    /// A frame has been drawn anew and is about to be seen.
+    void frame_drawn();
     /// An element was clicked (none: the background).
     void element_clicked(std::optional<Index> element);
 
@@ -50,6 +74,8 @@ class MeshView : public QOpenGLWidget {
     void mouseReleaseEvent(QMouseEvent* event) override;
     void wheelEvent(QWheelEvent* event) override;
     void leaveEvent(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    bool event(QEvent* event) override;
 
   private:
     struct Parts;
@@ -58,6 +84,10 @@ class MeshView : public QOpenGLWidget {
     void request_frame();
     void send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat = false);
     void scale_to_device();
+    /// Device pixels, origin bottom left, as the scene counts.
+    std::array<double, 2> to_device(QPointF position) const;
+    QPointF from_device(double x, double y) const;
+    void hover(QPointF position, Qt::KeyboardModifiers modifiers);
 
     std::unique_ptr<Parts> parts_;
 };

@@ -106,6 +106,19 @@ void QualityPanel::show_figures(const Side& side, const MeshState& state) {
     set_tone(side.validity, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
 }
 
+void QualityPanel::show_live(const QualityReport& report) {
+    // Large meshes: no more than a fifth of the time.
+    const auto start = std::chrono::steady_clock::now();
+    if (start < next_live_) return;
+    MeshState state;
+    state.quality = std::make_shared<const QualityReport>(report);
+    show_figures(after_, state);
+    const Index limit = std::max(before_.histogram->limit(), after_.histogram->bars().highest());
+    for (const Side& side : {before_, after_}) side.histogram->set_scale(limit, logarithmic_->isChecked());
+    const auto end = std::chrono::steady_clock::now();
+    next_live_ = end + 4 * (end - start);
+}
+
 void QualityPanel::refresh() {
     const bool from_opened = reference_->currentIndex() == 1;
     show_figures(before_, from_opened ? document_.original() : document_.before());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <vector>
 
 #include <QWidget>
@@ -22,6 +23,10 @@ class QualityPanel : public QWidget {
   public:
     QualityPanel(MeshDocument& document, const Theme& theme, QWidget* parent = nullptr);
 
+    /// "Now" shows this report of the document's mesh while it is being moved; show_state() ends that.
+    void show_live(const QualityReport& report);
+    void show_state() { refresh(); }
+
   signals:
     /// Elements of the present mesh that the user picked in a histogram.
     void elements_chosen(const std::vector<Index>& elements);
@@ -39,6 +44,7 @@ class QualityPanel : public QWidget {
     MeshDocument& document_;
     const Theme& theme_;
     Side before_, after_;
+    std::chrono::steady_clock::time_point next_live_{};  ///< before that, no live report is shown
     QComboBox* reference_ = nullptr;
     QCheckBox* logarithmic_ = nullptr;
 };

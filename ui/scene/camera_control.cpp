@@ -214,6 +214,10 @@ double CameraControl::distance() const {
     return renderer_->GetActiveCamera()->GetDistance();
 }
 
+Eigen::Matrix3d CameraControl::axes() const {
+    return camera_axes(renderer_->GetActiveCamera());
+}
+
 Eigen::Vector3d CameraControl::unproject(double x, double y, double depth) const {
     const ViewMetrics view = metrics(1.0);
     const Eigen::Vector4d clip(2.0 * x / view.size[0] - 1.0, 2.0 * y / view.size[1] - 1.0, depth, 1.0);

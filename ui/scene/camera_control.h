@@ -39,6 +39,10 @@ class CameraControl {
     ViewMetrics metrics(double pixel_ratio) const;
     /// From the eye to the focal point, world units.
     double distance() const;
+    /// World point at a display position and depth.
+    Eigen::Vector3d unproject(double x, double y, double depth) const;
+    /// Columns: right, up, towards the eye.
+    Eigen::Matrix3d axes() const;
 
     /// Takes over the other camera's position (the frames may differ).
     void copy_view(const CameraControl& other, const WorldFrame& theirs, const WorldFrame& ours);
@@ -48,7 +52,6 @@ class CameraControl {
     void turn_to(const Eigen::Vector3d& backward, const Eigen::Vector3d& up);
     void update_projection();
     std::array<int, 2> viewport() const;
-    Eigen::Vector3d unproject(double x, double y, double depth) const;
     double focal_depth() const;
 
     vtkRenderer* renderer_;

@@ -42,6 +42,14 @@ void SceneInteractorStyle::OnLeftButtonUp() {
     end();
 }
 
+void SceneInteractorStyle::OnRightButtonDown() {
+    OnLeftButtonDown();
+}
+
+void SceneInteractorStyle::OnRightButtonUp() {
+    end();
+}
+
 void SceneInteractorStyle::OnMiddleButtonDown() {
     begin(Drag::pan);
 }

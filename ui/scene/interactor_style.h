@@ -8,7 +8,7 @@
 
 namespace curvewright {
 
-/// How the mouse moves the camera. 2D: left or middle drag pans, the wheel zooms to the pointer. 3D: left drag turns,
+/// How the mouse moves the camera. 2D: any drag pans, the wheel zooms to the pointer. 3D: left or right drag turns,
 /// middle or shift + left drag pans, the wheel zooms to the pointer. No keys.
 class SceneInteractorStyle : public vtkInteractorStyle {
   public:
@@ -22,8 +22,8 @@ class SceneInteractorStyle : public vtkInteractorStyle {
     void OnLeftButtonUp() override;
     void OnMiddleButtonDown() override;
     void OnMiddleButtonUp() override;
-    void OnRightButtonDown() override {}
-    void OnRightButtonUp() override {}
+    void OnRightButtonDown() override;
+    void OnRightButtonUp() override;
     void OnMouseMove() override;
     void OnMouseWheelForward() override;
     void OnMouseWheelBackward() override;

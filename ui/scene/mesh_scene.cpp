@@ -1,6 +1,7 @@
 #include "ui/scene/mesh_scene.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
@@ -13,6 +14,7 @@
 #include "ui/scene/element_spacing.h"
 #include "ui/scene/interactor_style.h"
 #include "ui/scene/legend.h"
+#include "ui/scene/mark_actors.h"
 #include "ui/scene/node_actor.h"
 #include "ui/scene/orientation_axes.h"
 #include "ui/scene/picking.h"
@@ -24,7 +26,6 @@ namespace curvewright {
 namespace {
 
 constexpr Color neutral_color{0.80, 0.84, 0.88};
-constexpr Color accent_color{0.06, 0.40, 0.95};
 
 /// The lines of a tessellation that are (or are not) on the boundary of a flat mesh.
 Polylines select_lines(const Tessellation& tessellation, const std::vector<float>& spacing, bool on_boundary) {
@@ -38,6 +39,18 @@ Polylines select_lines(const Tessellation& tessellation, const std::vector<float
         lines.spacing.push_back(spacing[line]);
     }
     return lines;
+}
+
+/// Their points alone, in the same order.
+std::vector<float> select_points(const Tessellation& tessellation, bool on_boundary) {
+    std::vector<float> points;
+    points.reserve(tessellation.edge_points().size());
+    const auto& offsets = tessellation.line_offsets();
+    const auto begin = tessellation.edge_points().begin();
+    for (std::size_t line = 0; line + 1 < offsets.size(); ++line)
+        if ((tessellation.line_is_boundary()[line] != 0) == on_boundary)
+            points.insert(points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
+    return points;
 }
 
 /// One flag per element; empty = all are visible.
@@ -75,6 +88,7 @@ struct MeshScene::Parts {
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
     double typical_spacing = 0.0;  ///< world
+    int frame_number = 0;          ///< of a motion
 
     CameraControl camera{renderer};
     SurfaceActor surface;
@@ -82,7 +96,8 @@ struct MeshScene::Parts {
     TangledMarks marks{add_base_actors()};
     NodeActors nodes;
     StrokeActor highlight_halo, highlight;
-    Legend legend{add_top_actors()};
+    MarkActors edit_marks{add_top_actors()};
+    Legend legend{renderer};
     OrientationAxes axes{renderer};
     vtkNew<vtkCallbackCommand> frame_observer;
     vtkSmartPointer<SceneInteractorStyle> style;
@@ -130,12 +145,14 @@ struct MeshScene::Parts {
         boundary.actor()->SetVisibility(tessellation && is_flat());
         highlight_halo.set_style({.color = background, .width = 6.5, .cap = 1.0, .is_on_top = true});
         // Nearer than the halo of every other side of the element.
-        highlight.set_style({.color = accent_color, .width = 3.0, .cap = 1.0, .depth_bias = 0.011, .is_on_top = true});
+        highlight.set_style(
+            {.color = options.accent, .width = 3.0, .cap = 1.0, .depth_bias = 0.011, .is_on_top = true});
         nodes.set_colors(options.edge_color, background, options.edge_color);
         nodes.set_visible(options.show_nodes);
         legend.set_colors(background, options.foreground);
         legend.set_visible(options.show_legend);
         axes.set_colors(background, options.foreground);
+        edit_marks.set_colors(background, options.accent, options.foreground);
     }
 
     /// Makes the drawing of the mesh anew, or moves it if nothing but positions has changed.
@@ -166,6 +183,24 @@ struct MeshScene::Parts {
         draw_highlight();
         set_camera_content();
         apply_options();
+    }
+
+    /// A frame of a motion: see MeshScene::show_frame.
+    void draw_frame(bool has_new_quality) {
+        // Telling whether a side bends too much for its chords costs as much as moving all of them: once in a while.
+        constexpr int frames_between_checks = 6;
+        if (frame_number++ % frames_between_checks == 0 && !tessellation->is_fine_enough(mesh->coordinates())) {
+            draw_mesh(false);
+            return;
+        }
+        tessellation->move(mesh->coordinates());
+        surface.set_surface(*tessellation, false);
+        if (has_new_quality) surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
+        edges.move_lines(select_points(*tessellation, false));
+        boundary.move_lines(select_points(*tessellation, true));
+        if (options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
+        if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
+        if (!highlighted.empty()) draw_highlight();
     }
 
     void set_camera_content() {
@@ -205,6 +240,7 @@ struct MeshScene::Parts {
         for (StrokeActor* stroke : {&edges, &boundary, &highlight_halo, &highlight}) stroke->clear();
         nodes.set_visible(false);
         marks.clear();
+        edit_marks.set_marks({}, frame);
         camera.set_content({});
     }
 
@@ -219,9 +255,12 @@ struct MeshScene::Parts {
         const double focal_distance = view.is_parallel ? 1.0 : camera.distance();
         nodes.update(view, typical_spacing, focal_distance);
         marks.update(view);
+        edit_marks.update(view);
         legend.update(view);
         axes.update(view);
     }
+
+    ViewMetrics view() const { return camera.metrics(options.pixel_ratio); }
 
     std::optional<Pick> pick(double x, double y) const {
         if (!tessellation) return std::nullopt;
@@ -265,6 +304,19 @@ void MeshScene::set_mesh(const CurvedMesh* mesh, const QualityReport* quality) {
         parts.camera.set_flat(parts.is_flat());
         look(ViewDirection::isometric);
     }
+}
+
+void MeshScene::show_frame(const Coordinates& positions, const QualityReport* quality) {
+    Parts& parts = *parts_;
+    if (!parts.mesh) return;
+    parts.mesh = parts.mesh->with_coordinates(positions);
+    if (quality) {
+        if (quality->elements.size() != static_cast<std::size_t>(parts.mesh->topology().element_count()))
+            throw InvalidInput("The quality report of a frame belongs to a mesh with another number of elements.");
+        parts.quality = *quality;
+        parts.legend.set_summary(quality->summary);
+    }
+    parts.draw_frame(quality != nullptr);
 }
 
 void MeshScene::set_options(const SceneOptions& options) {
@@ -319,6 +371,54 @@ bool MeshScene::draws_element(Index element) const {
 std::optional<Index> MeshScene::pick_element(double x, double y) const {
     const std::optional<Pick> pick = parts_->pick(x, y);
     return pick ? std::optional(pick->element) : std::nullopt;
+}
+
+void MeshScene::set_marks(const Marks& marks) {
+    parts_->edit_marks.set_marks(marks, parts_->frame);
+}
+
+bool MeshScene::is_flat() const {
+    return parts_->is_flat();
+}
+
+Eigen::Vector4d MeshScene::project(const Eigen::RowVector3d& point) const {
+    return parts_->view().project(parts_->frame.to_world(point));
+}
+
+Eigen::RowVector3d MeshScene::unproject(double x, double y, const Eigen::RowVector3d& at_depth_of) const {
+    const double depth = project(at_depth_of)[2];
+    Eigen::RowVector3d point = parts_->frame.to_mesh(parts_->camera.unproject(x, y, depth).transpose());
+    if (is_flat()) point[2] = at_depth_of[2];
+    return point;
+}
+
+double MeshScene::units_per_pixel(const Eigen::RowVector3d& at) const {
+    const double divisor = project(at)[3];
+    return parts_->frame.size / std::max(parts_->view().pixels_per_unit(divisor), 1e-12);
+}
+
+Eigen::Matrix3d MeshScene::view_axes() const {
+    return parts_->camera.axes();
+}
+
+std::optional<Index> MeshScene::pick_node(double x, double y, double radius,
+                                          const std::function<bool(Index)>& accepts) const {
+    if (!parts_->tessellation) return std::nullopt;
+    return pick_drawn_node(*parts_->mesh, *parts_->tessellation, parts_->frame, parts_->view(), x, y, radius,
+                           !is_flat(), accepts);
+}
+
+std::vector<Index> MeshScene::nodes_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const {
+    if (!parts_->tessellation) return {};
+    return pick_nodes_inside(*parts_->mesh, *parts_->tessellation, parts_->frame, parts_->view(), polygon,
+                             !is_flat() && !see_through);
+}
+
+std::vector<Index> MeshScene::elements_inside(const std::vector<std::array<double, 2>>& polygon,
+                                              bool see_through) const {
+    if (!parts_->tessellation) return {};
+    return pick_elements_inside(*parts_->tessellation, parts_->frame, parts_->view(), polygon,
+                                !is_flat() && !see_through);
 }
 
 void MeshScene::copy_view(const MeshScene& other) {

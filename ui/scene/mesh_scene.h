@@ -1,12 +1,14 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "core/mesh/curved_mesh.h"
 #include "core/quality/quality.h"
+#include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
 
 class vtkRenderer;
@@ -29,7 +31,8 @@ struct SceneOptions {
     Color background{1.0, 1.0, 1.0};
     Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
     Color edge_color{0.25, 0.27, 0.30};
-    double pixel_ratio = 1.0;  ///< device pixels per unit: scales lines, points, text
+    Color accent{0.06, 0.40, 0.95};  ///< selection and handles
+    double pixel_ratio = 1.0;        ///< device pixels per unit: scales lines, points, text
 };
 
 enum class ViewDirection { fit, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, isometric };
@@ -48,6 +51,10 @@ class MeshScene {
     /// Shows a mesh (none = empty). quality may be null (neutral colours) or must be the report of this very mesh.
     /// The camera stays, unless the topology is another one than before: then the view is reset.
     void set_mesh(const CurvedMesh* mesh, const QualityReport* quality);
+    /// A frame of a motion: the same mesh elsewhere. Cheaper than set_mesh: the camera's content stays, and curved
+    /// sides are cut finer only now and then. set_mesh at the end puts everything right. quality: null = colours and
+    /// marks stay as they are. positions: nodes × 3.
+    void show_frame(const Coordinates& positions, const QualityReport* quality);
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
 
@@ -67,6 +74,27 @@ class MeshScene {
 
     /// Element under a display position (device pixels, origin bottom left); none = background.
     std::optional<Index> pick_element(double x, double y) const;
+
+    // What tools need. Display positions are device pixels, origin bottom left; points are mesh coordinates.
+
+    /// Drawn over the mesh until the next call.
+    void set_marks(const Marks& marks);
+    bool is_flat() const;
+    /// Display position and depth (-1 near .. 1 far) of a point; the fourth is positive in front of the camera.
+    Eigen::Vector4d project(const Eigen::RowVector3d& point) const;
+    /// The point under a display position at the depth of another point (2D: in the mesh's plane).
+    Eigen::RowVector3d unproject(double x, double y, const Eigen::RowVector3d& at_depth_of) const;
+    /// Mesh units per device pixel at a point, in the plane of the view.
+    double units_per_pixel(const Eigen::RowVector3d& at) const;
+    /// Unit vectors of the view in the mesh's space: right, up, towards the eye.
+    Eigen::Matrix3d view_axes() const;
+    /// The drawn node nearest to a display position within a radius that `accepts` (and, in 3D, that no surface hides).
+    std::optional<Index> pick_node(double x, double y, double radius,
+                                   const std::function<bool(Index node)>& accepts) const;
+    /// Drawn nodes, and elements whose centre or drawn surface's middle, lies in a polygon of display positions; hidden
+    /// ones too if see_through (2D: nothing is hidden).
+    std::vector<Index> nodes_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const;
+    std::vector<Index> elements_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const;
 
     /// Installs the way the mouse moves the camera: 2D pan and zoom to the pointer; 3D trackball.
     void attach_interactor(vtkRenderWindowInteractor* interactor);

@@ -1,14 +1,7 @@
 #pragma once
 
-#include <vtkNew.h>
-
 #include "core/tessellate/tessellation.h"
-#include "ui/palette/quality_colors.h"
-#include "ui/scene/view_metrics.h"
-
-class vtkActor;
-class vtkOpenGLPolyDataMapper;
-class vtkPolyData;
+#include "ui/scene/point_actor.h"
 
 namespace curvewright {
 
@@ -16,13 +9,8 @@ namespace curvewright {
 /// the mesh's boundary in a tone of their own.
 class NodeActors {
   public:
-    NodeActors();
-    ~NodeActors();
-    NodeActors(const NodeActors&) = delete;
-    NodeActors& operator=(const NodeActors&) = delete;
-
-    vtkActor* corners() const { return sets_[0].actor; }
-    vtkActor* others() const { return sets_[1].actor; }
+    vtkActor* corners() const { return sets_[0].actor(); }
+    vtkActor* others() const { return sets_[1].actor(); }
     void set_nodes(const CurvedMesh& mesh, const Tessellation& tessellation, const WorldFrame& frame);
     /// boundary, interior: fill of the points; rim: their outline.
     void set_colors(const Color& boundary, const Color& interior, const Color& rim);
@@ -31,17 +19,11 @@ class NodeActors {
     void update(const ViewMetrics& view, double spacing, double distance);
 
   private:
-    struct Set {
-        vtkNew<vtkActor> actor;
-        vtkNew<vtkOpenGLPolyDataMapper> mapper;
-        vtkNew<vtkPolyData> data;
-    };
-    void set_up(Set& set);
     void color_points();
 
-    Set sets_[2];  ///< corners, others
+    PointActor sets_[2];  ///< corners, others
     std::vector<bool> is_boundary_[2];
-    Color boundary_{}, interior_{};
+    Color boundary_{0.0, 0.0, 0.0}, interior_{1.0, 1.0, 1.0};
     bool is_visible_ = false;
 };
 

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "core/tessellate/tessellation.h"
 #include "ui/scene/view_metrics.h"
@@ -17,5 +19,38 @@ struct Pick {
 /// (2D: tangled elements overlap their neighbours) the one with the higher rank is taken.
 std::optional<Pick> pick_surface(const Tessellation& tessellation, const WorldFrame& frame, const ViewMetrics& view,
                                  double x, double y, const std::function<int(Index element)>& rank);
+
+/// How far from the eye the drawn surface is within a box of the display: tells what it hides.
+class DepthMap {
+  public:
+    /// low, high: corners of the box, device pixels.
+    DepthMap(const Tessellation& tessellation, const WorldFrame& frame, const ViewMetrics& view,
+             std::array<double, 2> low, std::array<double, 2> high);
+    /// Whether the surface lies before a world point that shows at the display position (x, y) of the box, by more than
+    /// a hundredth of the mesh's size.
+    bool hides(double x, double y, const Eigen::RowVector3d& world) const;
+
+  private:
+    double depth_of(const Eigen::RowVector3d& world) const;
+
+    Eigen::RowVector4d row_;  ///< world point -> distance from the eye along the view
+    int left_ = 0, bottom_ = 0, width_ = 0, height_ = 0;
+    std::vector<float> depth_;  ///< height × width
+};
+
+/// The drawn node nearest to a display position within a radius that `accepts`; nodes that the surface hides are passed
+/// over if hides.
+std::optional<Index> pick_drawn_node(const CurvedMesh& mesh, const Tessellation& tessellation, const WorldFrame& frame,
+                                     const ViewMetrics& view, double x, double y, double radius, bool hides,
+                                     const std::function<bool(Index node)>& accepts);
+
+using DisplayPolygon = std::vector<std::array<double, 2>>;  ///< device pixels, origin bottom left
+
+/// Drawn nodes that show in a polygon, ascending.
+std::vector<Index> pick_nodes_inside(const CurvedMesh& mesh, const Tessellation& tessellation, const WorldFrame& frame,
+                                     const ViewMetrics& view, const DisplayPolygon& polygon, bool hides);
+/// Elements with a drawn face whose middle shows in a polygon, ascending.
+std::vector<Index> pick_elements_inside(const Tessellation& tessellation, const WorldFrame& frame,
+                                        const ViewMetrics& view, const DisplayPolygon& polygon, bool hides);
 
 }  // namespace curvewright

@@ -1,7 +1,7 @@
 #include "ui/scene/stroke_actor.h"
 
+#include <algorithm>
 #include <cmath>
-#include <span>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
@@ -138,15 +138,17 @@ StrokeActor::~StrokeActor() = default;
 void StrokeActor::set_lines(const Polylines& lines, double length_unit) {
     const auto point_count = static_cast<vtkIdType>(lines.points.size() / 3);
     actor_->SetVisibility(point_count > 0);
+    offsets_ = lines.offsets;
     if (point_count == 0) {
         data_->Initialize();
         return;
     }
     // VTK leaves out triangles whose corners coincide, as those of a ribbon without width do: its points are only
     // numbers of points, the positions go to the shader in an attribute.
-    auto number = make_array("number", 3, 2 * point_count), here = make_array("here", 3, 2 * point_count),
-         previous = make_array("previous", 3, 2 * point_count), next = make_array("next", 3, 2 * point_count),
-         stroke = make_array("stroke", 3, 2 * point_count);
+    auto number = make_array("number", 3, 2 * point_count), stroke = make_array("stroke", 3, 2 * point_count);
+    here_ = make_array("here", 3, 2 * point_count);
+    previous_ = make_array("previous", 3, 2 * point_count);
+    next_ = make_array("next", 3, 2 * point_count);
     auto ids = vtkSmartPointer<vtkTypeInt64Array>::New();
     auto starts = vtkSmartPointer<vtkTypeInt64Array>::New();
     const vtkIdType triangle_count = 2 * (point_count - lines.count());
@@ -164,22 +166,14 @@ void StrokeActor::set_lines(const Polylines& lines, double length_unit) {
     for (Index line = 0; line < lines.count(); ++line) {
         const Index first = lines.offsets[line], last = lines.offsets[line + 1] - 1;
         const float* x = lines.points.data();
-        // A closed line has no ends.
-        const bool is_closed = last - first > 2 && x[3 * first] == x[3 * last] && x[3 * first + 1] == x[3 * last + 1] &&
-                               x[3 * first + 2] == x[3 * last + 2];
         double along = 0.0;
         for (Index i = first; i <= last; ++i) {
-            const Index before = i > first ? i - 1 : (is_closed ? last - 1 : first);
-            const Index after = i < last ? i + 1 : (is_closed ? first + 1 : last);
             if (i > first)
                 along += std::hypot(x[3 * i] - x[3 * i - 3], x[3 * i + 1] - x[3 * i - 2], x[3 * i + 2] - x[3 * i - 1]);
             for (int side = 0; side < 2; ++side) {
                 const vtkIdType at = 2 * i + side;
                 const float numbers[3] = {static_cast<float>(i), static_cast<float>(side), 0.0f};
                 number->SetTypedTuple(at, numbers);
-                here->SetTypedTuple(at, x + 3 * i);
-                previous->SetTypedTuple(at, x + 3 * before);
-                next->SetTypedTuple(at, x + 3 * after);
                 stroke->SetTypedComponent(at, 0, side == 0 ? -1.0f : 1.0f);
                 stroke->SetTypedComponent(at, 1, static_cast<float>(along * length_unit));
                 stroke->SetTypedComponent(
@@ -200,11 +194,33 @@ void StrokeActor::set_lines(const Polylines& lines, double length_unit) {
     data_->Initialize();
     data_->SetPoints(points);
     data_->SetPolys(triangles);
-    data_->GetPointData()->AddArray(here);
-    data_->GetPointData()->AddArray(previous);
-    data_->GetPointData()->AddArray(next);
+    data_->GetPointData()->AddArray(here_);
+    data_->GetPointData()->AddArray(previous_);
+    data_->GetPointData()->AddArray(next_);
     data_->GetPointData()->AddArray(stroke);
     data_->GetPointData()->SetScalars(colors);
+    move_lines(lines.points);
+}
+
+void StrokeActor::move_lines(const std::vector<float>& points) {
+    if (points.empty() || static_cast<Index>(points.size() / 3) != offsets_.back()) return;
+    const float* x = points.data();
+    float *here = here_->GetPointer(0), *previous = previous_->GetPointer(0), *next = next_->GetPointer(0);
+    for (std::size_t line = 0; line + 1 < offsets_.size(); ++line) {
+        const Index first = offsets_[line], last = offsets_[line + 1] - 1;
+        // A closed line has no ends.
+        const bool is_closed = last - first > 2 && std::equal(x + 3 * first, x + 3 * first + 3, x + 3 * last);
+        for (Index i = first; i <= last; ++i) {
+            const Index before = i > first ? i - 1 : (is_closed ? last - 1 : first);
+            const Index after = i < last ? i + 1 : (is_closed ? first + 1 : last);
+            for (Index side = 0; side < 2; ++side) {
+                std::copy_n(x + 3 * i, 3, here + 6 * i + 3 * side);
+                std::copy_n(x + 3 * before, 3, previous + 6 * i + 3 * side);
+                std::copy_n(x + 3 * after, 3, next + 6 * i + 3 * side);
+            }
+        }
+    }
+    for (vtkFloatArray* array : {here_.Get(), previous_.Get(), next_.Get()}) array->Modified();
     data_->Modified();
 }
 

@@ -10,6 +10,7 @@
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
+class vtkFloatArray;
 class vtkOpenGLPolyDataMapper;
 class vtkPolyData;
 
@@ -53,6 +54,8 @@ class StrokeActor {
     /// length_unit: size of the unit of the points in the world (or 1 for pixels).
     void set_lines(const Polylines& lines, double length_unit);
     void clear() { set_lines({}, 1.0); }
+    /// The same lines elsewhere; spacing, colours and the places of dots stay. points: 3 per point, as many as before.
+    void move_lines(const std::vector<float>& points);
     void set_style(const StrokeStyle& style);
     const StrokeStyle& style() const { return style_; }
     /// Before every frame.
@@ -60,6 +63,8 @@ class StrokeActor {
 
   private:
     StrokeStyle style_;
+    std::vector<Index> offsets_{0};  ///< of the lines
+    vtkSmartPointer<vtkFloatArray> here_, previous_, next_;
     vtkNew<vtkActor> actor_;
     vtkNew<vtkOpenGLPolyDataMapper> mapper_;
     vtkNew<vtkPolyData> data_;

@@ -15,6 +15,7 @@ struct WorldFrame {
     double size = 1.0;
 
     Eigen::RowVector3d to_world(const Eigen::RowVector3d& point) const { return (point - origin) / size; }
+    Eigen::RowVector3d to_mesh(const Eigen::RowVector3d& world) const { return world * size + origin; }
     /// Places an actor whose points are mesh coordinates relative to points_origin.
     void place(vtkActor* actor, const Eigen::RowVector3d& points_origin) const;
 };

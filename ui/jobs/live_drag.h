@@ -1,0 +1,91 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include <QObject>
+#include <QString>
+
+#include "core/edit/drag.h"
+#include "ui/document/mesh_document.h"
+
+namespace curvewright {
+
+/// What is taken in hand.
+struct DragRequest {
+    DraggedSet set;
+    ResponseKind kind = ResponseKind::translation;
+    Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of rotations and scalings
+    QString name;                                      ///< of the step in the history
+};
+
+/// A drag of the open mesh, from press to release: weights and response are computed on a thread of its own, frames are
+/// made as the hand moves, quality keeps up with them (at once if that is quick, else a little behind), and the end is
+/// one step of the history or everything as it was. All members are for the window's thread; none of them takes long.
+class LiveDrag : public QObject {
+    Q_OBJECT
+
+  public:
+    explicit LiveDrag(MeshDocument& document, QObject* parent = nullptr);
+    ~LiveDrag() override;
+
+    /// How the interior follows, from the next drag on.
+    void set_weights(const WarpOptions& options);
+    /// Interior nodes that stay, from the next drag on.
+    void set_pinned(const std::vector<Index>& pinned);
+    /// Computes the weights of the open mesh in the background, so that the first drag need not wait for them.
+    void prepare();
+
+    bool is_active() const { return phase_ != Phase::idle; }
+    /// The response is there: what is seen is live.
+    bool is_live() const { return phase_ == Phase::live; }
+
+    /// Takes hold. pre: document has a mesh, not active. In the course of a drag: changes what is in hand; the motion
+    /// stays.
+    void begin(const DragRequest& request);
+    void change(const DragRequest& request);
+    /// The hand is there now, relative to where it took hold.
+    void move(const AffineMotion& motion);
+    /// Lets go: the motion becomes a step of the history (unless there is none). ended() follows.
+    void finish();
+    /// Everything back to where it was. ended() follows at once.
+    void cancel();
+
+  signals:
+    void active_changed(bool is_active);
+    /// What to show: positions, and the quality if there is a newer one (null = not yet). Both live during the call.
+    void frame(const Coordinates& positions, const QualityReport* quality);
+    /// The drag is over; is_kept: it became a step of the history.
+    void ended(bool is_kept);
+    void failed(const QString& message);
+
+  private:
+    enum class Phase { idle, preparing, live, finishing };
+    class Worker;
+
+    void set_phase(Phase phase);
+    void set_up(const DragRequest& request);
+    void receive(std::shared_ptr<Drag> drag);
+    void step();
+    void certify_behind();
+    void keep(std::shared_ptr<QualityReport> report);
+    void close(bool is_kept);
+
+    MeshDocument& document_;
+    WarpOptions options_;
+    std::vector<Index> pinned_;
+    std::unique_ptr<Worker> worker_;
+
+    Phase phase_ = Phase::idle;
+    int generation_ = 0;  ///< results of older ones are dropped
+    bool is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
+    MeshState start_;
+    DragRequest request_;
+    std::shared_ptr<Drag> drag_;
+    std::shared_ptr<QualityReport> report_;
+    AffineMotion motion_;
+    double certify_seconds_ = 0.0;  ///< what the last certification took
+};
+
+}  // namespace curvewright

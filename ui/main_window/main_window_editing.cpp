@@ -1,0 +1,139 @@
+#include <QAction>
+#include <QActionGroup>
+#include <QLabel>
+#include <QSettings>
+#include <QStatusBar>
+
+#include "core/base/stopwatch.h"
+#include "ui/document/mesh_text.h"
+#include "ui/document/number_format.h"
+#include "ui/main_window/main_window.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/operation_panels.h"
+#include "ui/panels/pointer_tag.h"
+#include "ui/panels/quality_panel.h"
+#include "ui/panels/widgets.h"
+#include "ui/tools/drag_tool.h"
+
+namespace curvewright {
+
+void MainWindow::build_tools() {
+    pointer_tag_ = new PointerTag(view_);
+    const ToolContext context{*view_, edit_, drag_};
+    tools_[CommandId::tool_look] = nullptr;
+    tools_[CommandId::tool_drag] = new DragTool(context, this);
+    auto* group = new QActionGroup(this);
+    for (const auto& [id, tool] : tools_) {
+        group->addAction(actions_[id]);
+        connect(actions_[id], &QAction::toggled, this, &MainWindow::update_tool);
+        if (tool) connect(tool, &Tool::hint_changed, this, &MainWindow::update_hint);
+    }
+    // Chosen by the user, each for meshes of its kind.
+    for (const auto& [id, tool] : tools_)
+        connect(actions_[id], &QAction::triggered, this, [this, id = id] {
+            QSettings().setValue(tool_setting(), QLatin1String(actions_[id]->objectName().toLatin1()));
+        });
+    actions_[CommandId::tool_look]->setChecked(true);
+}
+
+QString MainWindow::tool_setting() const {
+    const bool is_flat = !document_.has_mesh() || document_.state().mesh->topology().dimension() < 3;
+    return is_flat ? QStringLiteral("tool/flat") : QStringLiteral("tool/solid");
+}
+
+void MainWindow::connect_editing() {
+    connect(&drag_, &LiveDrag::active_changed, this, [this](bool is_active) {
+        update_commands();
+        if (!is_active) pointer_tag_->hide();
+    });
+    connect(&drag_, &LiveDrag::frame, this, &MainWindow::show_frame);
+    connect(&drag_, &LiveDrag::ended, this, [this](bool is_kept) {
+        if (!is_kept) quality_panel_->show_state();
+    });
+    connect(&drag_, &LiveDrag::failed, this,
+            [this](const QString& message) { dialogs_.show_error(this, tr("Dragging failed"), message); });
+    connect(view_, &MeshView::pointer_moved, pointer_tag_, &PointerTag::follow);
+    const auto refresh = [this] {
+        if (Tool* tool = current_tool()) tool->refresh();
+        update_hint();
+    };
+    connect(&edit_, &EditState::selection_changed, this, refresh);
+    connect(&edit_, &EditState::pins_changed, this, refresh);
+    connect(&edit_, &EditState::settings_changed, this, [this, refresh] {
+        actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
+        refresh();
+    });
+    connect(&edit_, &EditState::pins_changed, this, [this] { drag_.set_pinned(edit_.pins()); });
+    connect(actions_[CommandId::soft], &QAction::toggled, this, [this](bool is_on) {
+        EditSettings settings = edit_.settings();
+        if (settings.is_soft == is_on) return;
+        settings.is_soft = is_on;
+        edit_.set_settings(settings);
+    });
+    actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
+    connect(warp_panel_, &OperationPanel::refreshed, this, [this] { drag_.set_weights(warp_panel_->options()); });
+    drag_.set_weights(warp_panel_->options());
+    update_tool();
+}
+
+Tool* MainWindow::current_tool() const {
+    if (jobs_.runner().is_running() || !document_.has_mesh()) return nullptr;
+    for (const auto& [id, tool] : tools_)
+        if (actions_[id]->isChecked()) return tool;
+    return nullptr;
+}
+
+void MainWindow::choose_tool_for_mesh() {
+    if (!document_.has_mesh()) return;
+    const bool is_flat = document_.state().mesh->topology().dimension() < 3;
+    // On a flat mesh there is room beside the boundary for the camera; the surface of a solid is all boundary.
+    const QString chosen =
+        QSettings()
+            .value(tool_setting(), is_flat ? QStringLiteral("tool_drag") : QStringLiteral("tool_look"))
+            .toString();
+    for (const auto& [id, tool] : tools_)
+        if (actions_[id]->objectName() == chosen) actions_[id]->setChecked(true);
+}
+
+void MainWindow::update_tool() {
+    view_->set_tool(current_tool());
+    update_hint();
+}
+
+void MainWindow::update_hint() {
+    if (const Tool* tool = current_tool())
+        hint_->setText(tool->hint());
+    else if (!document_.has_mesh())
+        hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
+    else if (document_.state().mesh->topology().dimension() == 3)
+        hint_->setText(tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?"));
+    else
+        hint_->setText(tr("drag: move · wheel: zoom to the pointer · click: what is this element?"));
+}
+
+void MainWindow::show_frame(const Coordinates& positions, const QualityReport* quality) {
+    view_->show_frame(positions, quality);
+    if (!drag_.is_active()) {
+        if (quality) show_verdict(quality->summary);
+        return;
+    }
+    if (!quality) return;
+    const QualitySummary& summary = quality->summary;
+    show_verdict(summary);
+    QString validity = describe_validity(summary);
+    if (summary.invalid > 0)
+        validity += tr(", worst: element %1")
+                        .arg(document_.state().mesh->topology().element_tag(quality->worst(1).front()).value);
+    pointer_tag_->show_quality(tr("min %1").arg(format_number(summary.min)), validity,
+                               summary.invalid > 0     ? "alarm"
+                               : summary.undecided > 0 ? "warning"
+                                                       : "good");
+    quality_panel_->show_live(*quality);
+}
+
+void MainWindow::show_verdict(const QualitySummary& summary) {
+    verdict_->setText(validity_sentence(summary));
+    set_tone(verdict_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
+}
+
+}  // namespace curvewright

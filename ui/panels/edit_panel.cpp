@@ -1,0 +1,162 @@
+#include "ui/panels/edit_panel.h"
+
+#include <QCheckBox>
+#include <QFormLayout>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "ui/panels/form_fields.h"
+#include "ui/panels/widgets.h"
+
+namespace curvewright {
+namespace {
+
+/// A length of any size.
+LogSpinBox* make_length(const char* object_name) {
+    auto* box = new LogSpinBox;
+    box->setObjectName(QLatin1String(object_name));
+    box->setLocale(QLocale::c());
+    box->setDecimals(12);
+    box->setRange(1e-12, 1e12);
+    return box;
+}
+
+}  // namespace
+
+EditPanel::EditPanel(EditState& edit, QWidget* parent) : QWidget(parent), edit_(edit) {
+    make_fields();
+    make_panel_layout(this)->addLayout(form_);
+    layout()->addItem(new QSpacerItem(0, 0, QSizePolicy::Minimum, QSizePolicy::Expanding));
+    connect(&edit, &EditState::settings_changed, this, &EditPanel::show_settings);
+    show_settings();
+}
+
+void EditPanel::make_fields() {
+    unit_ = make_choice("grab_unit", tr("What a press on the boundary takes hold of, unless it is selected."),
+                        {{tr("A node"), int(GrabUnit::node), tr("the node under the mouse.")},
+                         {tr("A side"), int(GrabUnit::side),
+                          tr("the smooth part of the boundary, up to the next corners or feature edges.")},
+                         {tr("A whole boundary"), int(GrabUnit::boundary), tr("all that hangs together.")}});
+    soft_ = new QCheckBox(tr("Take neighbours along"));
+    soft_->setObjectName(QStringLiteral("soft"));
+    soft_->setToolTip(
+        tr("Boundary nodes within the radius follow, the less the farther away they are "
+           "(proportional editing). O turns it on and off."));
+    radius_ = make_length("soft_radius");
+    radius_->setToolTip(tr("How far the drag reaches, in the unit of the mesh. While dragging, the wheel changes it."));
+    falloff_ = make_choice("falloff", tr("How the share falls from the node in hand to the radius."),
+                           {{tr("Smooth"), int(Falloff::smooth), tr("level at both ends.")},
+                            {tr("Sphere"), int(Falloff::sphere), tr("like a ball pressed from below.")},
+                            {tr("Root"), int(Falloff::root), tr("full and blunt.")},
+                            {tr("Linear"), int(Falloff::linear), tr("a tent.")},
+                            {tr("Sharp"), int(Falloff::sharp), tr("a thin peak.")}});
+    along_ = new QCheckBox(tr("Measured along the boundary"));
+    along_->setObjectName(QStringLiteral("along_boundary"));
+    along_->setToolTip(tr("Otherwise as the crow flies: the far side of a thin part moves too"));
+    direction_ =
+        make_choice("drag_direction", tr("Where what is dragged may go. While dragging: X, Y, Z, N, or Shift."),
+                    {{tr("With the mouse"), int(DragDirection::view_plane), tr("in the plane of the view.")},
+                     {tr("Along x"), int(DragDirection::along_x), tr("along the x axis only.")},
+                     {tr("Along y"), int(DragDirection::along_y), tr("along the y axis only.")},
+                     {tr("Along z"), int(DragDirection::along_z), tr("along the z axis only.")},
+                     {tr("Along the normal"), int(DragDirection::along_normal),
+                      tr("along the boundary's normal at the node in hand.")}});
+    snap_ = make_choice("snap", tr("Where the node in hand comes to rest. Ctrl: as free as ever."),
+                        {{tr("Nothing"), int(SnapTarget::nothing), tr("where the mouse is.")},
+                         {tr("Grid"), int(SnapTarget::grid), tr("on multiples of the spacing.")},
+                         {tr("Circle"), int(SnapTarget::circle), tr("on a circle in the xy plane.")},
+                         {tr("Sphere"), int(SnapTarget::sphere), tr("on a sphere.")},
+                         {tr("NACA profile"), int(SnapTarget::naca), tr("on a symmetric four-digit profile.")}});
+    spacing_ = make_length("grid_spacing");
+    center_row_ = new QWidget;
+    auto* row = new QHBoxLayout(center_row_);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(4);
+    const char* names[] = {"snap_x", "snap_y", "snap_z"};
+    for (int d = 0; d < 3; ++d) {
+        center_[d] = make_number(names[d], -1e12, 1e12, 0.1, 6, 0.0);
+        center_[d]->setButtonSymbols(QAbstractSpinBox::NoButtons);
+        center_[d]->setMinimumWidth(40);
+        row->addWidget(center_[d], 1);
+    }
+    size_ = make_length("snap_radius");
+    thickness_ = make_number("snap_thickness", 0.01, 0.6, 0.01, 3, 0.12);
+    thickness_->setToolTip(tr("Thickness of the profile as a fraction of its chord: 0.12 is NACA 0012"));
+    center_label_ = make_label(tr("Centre"), "");
+    size_label_ = make_label(tr("Radius"), "");
+
+    form_ = make_form();
+    form_->addRow(tr("Takes"), unit_);
+    form_->addRow(soft_);
+    form_->addRow(tr("Radius"), radius_);
+    form_->addRow(tr("Falloff"), falloff_);
+    form_->addRow(along_);
+    form_->addRow(tr("Moves"), direction_);
+    form_->addRow(tr("Snaps to"), snap_);
+    form_->addRow(tr("Spacing"), spacing_);
+    form_->addRow(center_label_, center_row_);
+    form_->addRow(size_label_, size_);
+    form_->addRow(tr("Thickness"), thickness_);
+    align_labels(form_);
+
+    for (QComboBox* box : {unit_, falloff_, direction_, snap_})
+        connect(box, &QComboBox::currentIndexChanged, this, &EditPanel::read_settings);
+    for (QCheckBox* box : {soft_, along_}) connect(box, &QCheckBox::toggled, this, &EditPanel::read_settings);
+    for (QDoubleSpinBox* box : {radius_, spacing_, size_, thickness_, center_[0], center_[1], center_[2]})
+        connect(box, &QDoubleSpinBox::valueChanged, this, &EditPanel::read_settings);
+}
+
+void EditPanel::show_settings() {
+    is_showing_ = true;
+    const EditSettings& settings = edit_.settings();
+    const auto choose = [](QComboBox* box, int value) { box->setCurrentIndex(box->findData(value)); };
+    choose(unit_, int(settings.unit));
+    soft_->setChecked(settings.is_soft);
+    radius_->setValue(settings.soft.radius);
+    choose(falloff_, int(settings.soft.falloff));
+    along_->setChecked(settings.soft.follows_boundary);
+    choose(direction_, int(settings.direction));
+    choose(snap_, int(settings.snap.target));
+    spacing_->setValue(settings.snap.grid_spacing);
+    for (int d = 0; d < 3; ++d) center_[d]->setValue(settings.snap.center[static_cast<std::size_t>(d)]);
+    size_->setValue(settings.snap.radius);
+    thickness_->setValue(settings.snap.thickness);
+    is_showing_ = false;
+    show_rows();
+}
+
+void EditPanel::read_settings() {
+    if (is_showing_) return;
+    EditSettings settings = edit_.settings();
+    settings.unit = chosen<GrabUnit>(unit_);
+    settings.is_soft = soft_->isChecked();
+    settings.soft.radius = radius_->value();
+    settings.soft.falloff = chosen<Falloff>(falloff_);
+    settings.soft.follows_boundary = along_->isChecked();
+    settings.direction = chosen<DragDirection>(direction_);
+    settings.snap.target = chosen<SnapTarget>(snap_);
+    settings.snap.grid_spacing = spacing_->value();
+    for (int d = 0; d < 3; ++d) settings.snap.center[static_cast<std::size_t>(d)] = center_[d]->value();
+    settings.snap.radius = size_->value();
+    settings.snap.thickness = thickness_->value();
+    edit_.set_settings(settings);
+}
+
+void EditPanel::show_rows() {
+    const EditSettings& settings = edit_.settings();
+    const bool can_be_soft = settings.unit != GrabUnit::boundary, is_soft = can_be_soft && settings.is_soft;
+    form_->setRowVisible(soft_, can_be_soft);
+    for (QWidget* field : std::initializer_list<QWidget*>{radius_, falloff_, along_})
+        form_->setRowVisible(field, is_soft);
+    const SnapTarget target = settings.snap.target;
+    const bool has_shape = target == SnapTarget::circle || target == SnapTarget::sphere || target == SnapTarget::naca;
+    form_->setRowVisible(spacing_, target == SnapTarget::grid);
+    form_->setRowVisible(center_row_, has_shape);
+    form_->setRowVisible(size_, has_shape);
+    form_->setRowVisible(thickness_, target == SnapTarget::naca);
+    center_label_->setText(target == SnapTarget::naca ? tr("Leading edge") : tr("Centre"));
+    size_label_->setText(target == SnapTarget::naca ? tr("Chord") : tr("Radius"));
+}
+
+}  // namespace curvewright

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ui/palette/marks.h"
+#include "ui/scene/point_actor.h"
+#include "ui/scene/stroke_actor.h"
+
+class vtkRenderer;
+
+namespace curvewright {
+
+/// What tools draw over the mesh: nodes that are hovered, selected, softly selected or pinned; handles; rubber bands.
+class MarkActors {
+  public:
+    explicit MarkActors(vtkRenderer* renderer);
+
+    void set_marks(const Marks& marks, const WorldFrame& frame);
+    /// ground: of the view; accent: selection; ink: rubber bands and spokes.
+    void set_colors(const Color& ground, const Color& accent, const Color& ink);
+    /// Before every frame.
+    void update(const ViewMetrics& view);
+
+  private:
+    Color color_of(MarkRole role, double share) const;
+    void draw();
+
+    Marks marks_;
+    WorldFrame frame_;
+    Color ground_{1.0, 1.0, 1.0}, accent_{0.1, 0.4, 0.9}, ink_{0.1, 0.1, 0.1};
+    PointActor small_, large_, pins_;
+    StrokeActor halo_, lines_, thin_lines_, rubber_halo_, rubber_;
+};
+
+}  // namespace curvewright

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <vector>
+
+#include <vtkNew.h>
+
+#include "ui/palette/quality_colors.h"
+#include "ui/scene/view_metrics.h"
+
+class vtkActor;
+class vtkOpenGLPolyDataMapper;
+class vtkPolyData;
+
+namespace curvewright {
+
+/// Round points of constant size on the screen, each with a fill of its own and a common rim.
+class PointActor {
+  public:
+    PointActor();
+    ~PointActor();
+    PointActor(const PointActor&) = delete;
+    PointActor& operator=(const PointActor&) = delete;
+
+    vtkActor* actor() const { return actor_; }
+    /// points: 3 per point, mesh coordinates relative to `origin`.
+    void set_points(const std::vector<float>& points, const Eigen::RowVector3d& origin, const WorldFrame& frame);
+    /// One fill per point.
+    void set_colors(const std::vector<Color>& colors);
+    void set_rim(const Color& rim);
+    /// Drawn over everything.
+    void set_on_top();
+    bool is_empty() const;
+    /// diameter: device pixels. Before every frame.
+    void set_diameter(double diameter);
+
+  private:
+    vtkNew<vtkActor> actor_;
+    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<vtkPolyData> data_;
+};
+
+}  // namespace curvewright
