@@ -12,8 +12,8 @@
 #include "ui/document/deformation_text.h"
 #include "ui/document/mesh_text.h"
 #include "ui/document/number_format.h"
-#include "ui/panels/histogram_widget.h"
 #include "ui/panels/form_fields.h"
+#include "ui/panels/histogram_widget.h"
 #include "ui/panels/operation_panels.h"
 
 using namespace curvewright;

@@ -293,10 +293,7 @@ void LiveDrag::keep(std::shared_ptr<QualityReport> report) {
 }
 
 void LiveDrag::cancel() {
-    if (!is_active()) return;
-    const MeshState start = start_;
-    close(false);
-    emit frame(start.mesh->coordinates(), start.quality.get());
+    if (is_active()) close(false);
 }
 
 void LiveDrag::close(bool is_kept) {

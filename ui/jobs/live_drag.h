@@ -56,7 +56,7 @@ class LiveDrag : public QObject {
     void active_changed(bool is_active);
     /// What to show: positions, and the quality if there is a newer one (null = not yet). Both live during the call.
     void frame(const Coordinates& positions, const QualityReport* quality);
-    /// The drag is over; is_kept: it became a step of the history.
+    /// The drag is over; is_kept: it becomes a step of the history now. Otherwise the document's state is to be shown.
     void ended(bool is_kept);
     void failed(const QString& message);
 

@@ -139,7 +139,12 @@ void MainWindow::connect_commands() {
 void MainWindow::connect_document() {
     connect(&document_, &MeshDocument::opened, this, &MainWindow::show_opened);
     connect(&document_, &MeshDocument::state_changed, this, &MainWindow::show_state);
-    connect(&document_, &MeshDocument::deformation_changed, this, &MainWindow::update_commands);
+    connect(&document_, &MeshDocument::deformation_changed, this, [this] {
+        update_commands();
+        // Both of these take it; from another tab it would go unseen.
+        const bool is_seen = tabs_->currentWidget()->objectName() == QLatin1String("warp_tab");
+        if (document_.deformation() && !is_seen) show_tab(QStringLiteral("deform"));
+    });
     connect(&document_, &MeshDocument::file_path_changed, this, &MainWindow::update_title);
     connect(&document_, &MeshDocument::dirty_changed, this, &MainWindow::update_title);
 

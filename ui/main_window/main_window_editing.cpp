@@ -48,7 +48,10 @@ void MainWindow::connect_editing() {
     });
     connect(&drag_, &LiveDrag::frame, this, &MainWindow::show_frame);
     connect(&drag_, &LiveDrag::ended, this, [this](bool is_kept) {
-        if (!is_kept) quality_panel_->show_state();
+        if (is_kept) return;  // the document has another state
+        view_->show_state(document_.state());
+        quality_panel_->show_state();
+        if (document_.state().quality) show_verdict(document_.state().quality->summary);
     });
     connect(&drag_, &LiveDrag::failed, this,
             [this](const QString& message) { dialogs_.show_error(this, tr("Dragging failed"), message); });
@@ -113,10 +116,6 @@ void MainWindow::update_hint() {
 
 void MainWindow::show_frame(const Coordinates& positions, const QualityReport* quality) {
     view_->show_frame(positions, quality);
-    if (!drag_.is_active()) {
-        if (quality) show_verdict(quality->summary);
-        return;
-    }
     if (!quality) return;
     const QualitySummary& summary = quality->summary;
     show_verdict(summary);

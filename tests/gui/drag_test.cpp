@@ -1,0 +1,451 @@
+/// The boundary in hand: real mouse events in the view, and what becomes of the mesh, the panels and the history.
+
+#include <QLabel>
+#include <QOpenGLWidget>
+#include <QSettings>
+#include <QSignalSpy>
+#include <QWheelEvent>
+
+#include "core/warp/warp.h"
+#include "tests/gui/gui_test_support.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/histogram_widget.h"
+
+using namespace curvewright;
+using namespace curvewright::testing;
+
+namespace {
+
+struct DragUnderTest : WindowUnderTest {
+    explicit DragUnderTest(const char* mesh = "square.msh", bool is_soft = false) {
+        open(inputs.path(QLatin1String(mesh)));
+        EditSettings settings = window->edit().settings();
+        settings.unit = GrabUnit::node;
+        settings.is_soft = is_soft;
+        settings.direction = DragDirection::view_plane;
+        window->edit().set_settings(settings);
+        window->action(CommandId::tool_drag)->trigger();
+        QTest::qWait(50);  // a first frame
+    }
+
+    MeshView& view() { return window->view(); }
+    LiveDrag& drag() { return window->drag(); }
+    MeshDocument& document() { return window->document(); }
+    const MeshTopology& topology() { return document().state().mesh->topology(); }
+    Coordinates positions() { return document().state().mesh->coordinates(); }
+
+    Index node_at(double x, double y, double z = 0.0) {
+        const Coordinates& at = document().state().mesh->coordinates();
+        Eigen::Index best = 0;
+        (at.rowwise() - Eigen::RowVector3d(x, y, z)).rowwise().norm().minCoeff(&best);
+        if ((at.row(best) - Eigen::RowVector3d(x, y, z)).norm() > 1e-9) qFatal("There is no node at that place.");
+        return static_cast<Index>(best);
+    }
+    QPoint place_of(Index node) { return view().to_display(positions().row(node)).toPoint(); }
+
+    void point_at(QPoint at) {
+        QTest::mouseMove(&view(), at + QPoint(40, 40));
+        QTest::mouseMove(&view(), at);
+        QTest::qWait(1);
+    }
+    /// Takes hold of a node and waits until the mesh would follow.
+    void take(Index node, Qt::KeyboardModifiers modifiers = {}) {
+        const QPoint at = place_of(node);
+        point_at(at);
+        QTest::mousePress(&view(), Qt::LeftButton, modifiers, at);
+        if (!QTest::qWaitFor([this] { return drag().is_live(); }, 20000)) qFatal("The drag did not come to life.");
+        mouse = at;
+    }
+    /// In some steps, as a hand does; waits for the last frame.
+    void move_by(QPoint way, Qt::KeyboardModifiers modifiers = {}) {
+        for (int step = 1; step <= 4; ++step) {
+            QMouseEvent event(QEvent::MouseMove, mouse + way * step / 4, view().mapToGlobal(mouse + way * step / 4),
+                              Qt::NoButton, Qt::LeftButton, modifiers);
+            QApplication::sendEvent(&view(), &event);
+            QTest::qWait(5);
+        }
+        mouse += way;
+        QTest::qWait(30);
+    }
+    void let_go() {
+        QTest::mouseRelease(&view(), Qt::LeftButton, {}, mouse);
+        if (!QTest::qWaitFor([this] { return !drag().is_active(); }, 20000)) qFatal("The drag did not end.");
+    }
+    void drag_node(Index node, QPoint way) {
+        take(node);
+        move_by(way);
+        let_go();
+    }
+    void turn_wheel(int notches, Qt::KeyboardModifiers modifiers = {}) {
+        QWheelEvent event(mouse, view().mapToGlobal(mouse), {}, {0, 120 * notches}, Qt::LeftButton, modifiers,
+                          Qt::NoScrollPhase, false);
+        QApplication::sendEvent(&view(), &event);
+    }
+    double unit() { return view().units_per_pixel(positions().row(0)); }
+    /// What a warp makes of the present boundary.
+    double distance_from_warp() {
+        const CurvedMesh& opened = *document().original().mesh;
+        return (Warper(opened).move(positions()).coordinates - positions()).cwiseAbs().maxCoeff();
+    }
+
+    QPoint mouse;
+};
+
+/// But for sides that are cut finer in one of them.
+bool is_alike(const QImage& a, const QImage& b, double most_differing = 0.0005) {
+    if (a.size() != b.size() || a.isNull()) return false;
+    int differing = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            const QRgb p = a.pixel(x, y), q = b.pixel(x, y);
+            const int distance =
+                std::abs(qRed(p) - qRed(q)) + std::abs(qGreen(p) - qGreen(q)) + std::abs(qBlue(p) - qBlue(q));
+            differing += distance > 60;
+        }
+    return differing < most_differing * a.width() * a.height();
+}
+
+}  // namespace
+
+class DragTest : public QObject {
+    Q_OBJECT
+
+  private slots:
+    void init() { QSettings().clear(); }
+
+    void a_node_follows_the_mouse_and_the_mesh_follows_the_node() {
+        DragUnderTest test;
+        const Index node = test.node_at(0.5, 0.0);
+        const Coordinates opened = test.positions();
+        QSignalSpy frames(&test.drag(), &LiveDrag::frame);
+        test.take(node);
+        QVERIFY(!test.find<QWidget>("pointer_tag")->isVisible());
+        const double unit = test.unit();
+        test.move_by({12, -16});
+        QVERIFY(frames.count() > 0);
+        // Nothing has happened to the document yet; the panels and the pointer's tag show what would.
+        QCOMPARE(test.positions(), opened);
+        QVERIFY(test.find<QWidget>("pointer_tag")->isVisible());
+        const QString minimum = test.text("pointer_minimum");
+        QVERIFY(minimum.startsWith(QStringLiteral("min 0.")));
+        QVERIFY(test.text("after_figures").startsWith(minimum));
+        QCOMPARE(test.text("pointer_validity"), QStringLiteral("✓ all proved valid"));
+        test.let_go();
+        QVERIFY(!test.find<QWidget>("pointer_tag")->isVisible());
+
+        const Coordinates moved = test.positions();
+        QVERIFY(std::abs(moved(node, 0) - 0.5 - 12 * unit) < 1.5 * unit);
+        QVERIFY(std::abs(moved(node, 1) - 16 * unit) < 1.5 * unit);
+        QCOMPARE(moved(node, 2), 0.0);
+        for (const Index other : test.topology().boundary_nodes())
+            if (other != node) QCOMPARE(moved.row(other), opened.row(other));
+        QVERIFY(test.distance_from_warp() < 1e-10);
+        QVERIFY((moved - opened).rowwise().norm().minCoeff() == 0.0);
+        const QualityReport fresh = assess_quality(*test.document().state().mesh);
+        QCOMPARE(test.document().state().quality->summary.min, fresh.summary.min);
+        QVERIFY(test.text("after_figures").startsWith(minimum));
+
+        // One step of the history, with a name; undo is exact.
+        QUndoStack& history = *test.document().history();
+        QCOMPARE(history.count(), 1);
+        QCOMPARE(history.text(0), QStringLiteral("Drag node %1").arg(test.topology().node_tag(node).value));
+        QVERIFY(test.window->isWindowModified());
+        test.click("tool_undo");
+        QCOMPARE(test.positions(), opened);
+        QVERIFY(!test.window->isWindowModified());
+        test.click("tool_redo");
+        QCOMPARE(test.positions(), moved);
+    }
+
+    void escape_puts_everything_back() {
+        DragUnderTest test;
+        const Coordinates opened = test.positions();
+        const QString before = test.text("after_figures");
+        const QImage untouched = test.view().picture(1);
+        test.take(test.node_at(0.5, 0.0));
+        test.move_by({0, -60});
+        QVERIFY(test.text("after_figures") != before);
+        QTest::keyClick(&test.view(), Qt::Key_Escape);
+        QVERIFY(!test.drag().is_active());
+        QCOMPARE(test.text("after_figures"), before);
+        QCOMPARE(test.positions(), opened);
+        QCOMPARE(test.document().history()->count(), 0);
+        QVERIFY(!test.window->isWindowModified());
+        // The rest of the way to the release does nothing.
+        test.move_by({0, -10});
+        QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, test.mouse);
+        QCOMPARE(test.document().history()->count(), 0);
+        test.point_at({5, 5});
+        QVERIFY(is_alike(test.view().picture(1), untouched));
+    }
+
+    void a_press_without_a_move_is_no_step() {
+        DragUnderTest test;
+        test.take(test.node_at(0.5, 0.0));
+        test.let_go();
+        QCOMPARE(test.document().history()->count(), 0);
+    }
+
+    void the_first_tangled_element_is_told_at_once() {
+        DragUnderTest test;
+        const Index node = test.node_at(0.5, 0.0);
+        test.take(node);
+        const int far = static_cast<int>(0.3 / test.unit());
+        test.move_by({0, -far});
+        QVERIFY2(test.text("pointer_validity").contains(QStringLiteral("tangled, worst: element")),
+                 qPrintable(test.text("pointer_validity")));
+        QVERIFY(test.text("verdict").contains(QStringLiteral("tangled")));
+        QVERIFY(test.find<HistogramWidget>("after_histogram")->bars().tangled.count() > 0);
+        const QImage live = test.view().picture(1);
+        test.let_go();
+        const QualitySummary summary = test.document().state().quality->summary;
+        QVERIFY(summary.invalid > 0);
+        QCOMPARE(test.find<HistogramWidget>("after_histogram")->bars().tangled.count(), summary.invalid);
+        // What was seen in hand is what is there.
+        test.point_at({5, 5});
+        const QImage kept = test.view().picture(1);
+        // But for the mark of the node in hand and of where it was.
+        QVERIFY(is_alike(kept, live, 0.01));
+    }
+
+    void neighbours_are_taken_along_within_the_radius() {
+        DragUnderTest test("square.msh", true);
+        EditSettings settings = test.window->edit().settings();
+        settings.soft.radius = 0.3;
+        settings.soft.falloff = Falloff::linear;
+        test.window->edit().set_settings(settings);
+        const Index node = test.node_at(0.5, 0.0);
+        const Coordinates opened = test.positions();
+        test.take(node);
+        test.turn_wheel(2);
+        const double radius = test.window->edit().settings().soft.radius;
+        QVERIFY(std::abs(radius - 0.3 * 1.12 * 1.12) < 1e-9);
+        QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));
+        test.move_by({0, -20});
+        test.let_go();
+        const Eigen::RowVector3d way = test.positions().row(node) - opened.row(node);
+        QVERIFY(way.norm() > 0.0);
+        int along = 0;
+        for (const Index other : test.topology().boundary_nodes()) {
+            const double distance = opened(other, 1) == 0.0 ? std::abs(opened(other, 0) - 0.5) : 1.0;
+            const double share = std::max(0.0, 1.0 - distance / radius);
+            const Eigen::RowVector3d moved = test.positions().row(other) - opened.row(other);
+            QVERIFY((moved - share * way).norm() < 1e-12);
+            along += share > 0.0;
+        }
+        QVERIFY(along > 4);
+    }
+
+    void a_side_and_a_whole_boundary_can_be_taken() {
+        DragUnderTest test;
+        EditSettings settings = test.window->edit().settings();
+        settings.unit = GrabUnit::side;
+        test.window->edit().set_settings(settings);
+        const Coordinates opened = test.positions();
+        test.drag_node(test.node_at(0.5, 0.0), {0, 24});
+        const auto bottom = test.topology().find_group_nodes("bottom").value();
+        const Eigen::RowVector3d way = test.positions().row(bottom.front()) - opened.row(bottom.front());
+        QVERIFY(way[1] < 0.0);
+        for (const Index node : test.topology().boundary_nodes()) {
+            const bool is_bottom = std::binary_search(bottom.begin(), bottom.end(), node);
+            const Eigen::RowVector3d moved = test.positions().row(node) - opened.row(node);
+            QVERIFY((moved - (is_bottom ? way : Eigen::RowVector3d::Zero().eval())).norm() < 1e-12);
+        }
+        QCOMPARE(test.document().history()->text(0), QStringLiteral("Drag a side"));
+
+        settings.unit = GrabUnit::boundary;
+        test.window->edit().set_settings(settings);
+        const Coordinates before = test.positions();
+        test.drag_node(test.topology().boundary_nodes().front(), {30, 0});
+        const Eigen::RowVector3d all = test.positions().row(0) - before.row(0);
+        QVERIFY(all[0] > 0.0);
+        // Everything hangs on the boundary.
+        QVERIFY(((test.positions() - before).rowwise() - all).cwiseAbs().maxCoeff() < 1e-10);
+        QCOMPARE(test.document().history()->text(1), QStringLiteral("Drag a boundary"));
+    }
+
+    void a_selection_moves_as_one_and_pins_stay() {
+        DragUnderTest test;
+        const Index a = test.node_at(0.5, 0.0), b = test.node_at(1.0, 0.5), c = test.node_at(0.0, 0.5);
+        IndexSet selected{a, b, c};
+        std::sort(selected.begin(), selected.end());
+        test.window->edit().select_nodes(selected);
+        test.window->edit().set_pins({c});
+        const Coordinates opened = test.positions();
+        test.drag_node(a, {-10, 6});
+        const Eigen::RowVector3d way = test.positions().row(a) - opened.row(a);
+        QVERIFY(way.norm() > 0.0);
+        QVERIFY((test.positions().row(b) - opened.row(b) - way).norm() < 1e-12);
+        QCOMPARE(test.positions().row(c), opened.row(c));
+        QCOMPARE(test.document().history()->text(0), QStringLiteral("Drag 2 selected nodes"));
+        // A pinned node cannot be taken.
+        const QPoint at = test.place_of(c);
+        test.point_at(at);
+        QVERIFY(test.text("hint").contains(QStringLiteral("pinned")));
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, at);
+        QVERIFY(!test.drag().is_active());
+        QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, at);
+        QCOMPARE(test.document().history()->count(), 1);
+    }
+
+    void interior_nodes_can_be_pinned_and_dragged() {
+        DragUnderTest test;
+        const Index inside = test.node_at(0.5, 0.5), pinned = test.node_at(0.25, 0.25);
+        const Index beside = test.node_at(0.5 + 1.0 / 12.0, 0.5);
+        test.window->edit().select_nodes({inside});
+        test.window->edit().set_pins({pinned});
+        const Coordinates opened = test.positions();
+        test.drag_node(inside, {9, 9});
+        QVERIFY((test.positions().row(inside) - opened.row(inside)).norm() > 0.0);
+        QCOMPARE(test.positions().row(pinned), opened.row(pinned));
+        for (const Index node : test.topology().boundary_nodes())
+            QCOMPARE(test.positions().row(node), opened.row(node));
+        // Its neighbours follow.
+        QVERIFY((test.positions().row(beside) - opened.row(beside)).norm() > 0.0);
+    }
+
+    void keys_keep_to_a_direction() {
+        DragUnderTest test;
+        const Index node = test.node_at(1.0, 0.5);
+        const Coordinates opened = test.positions();
+        const bool shows_nodes = test.window->action(CommandId::nodes)->isChecked();
+        test.take(node);
+        test.move_by({-20, -12});
+        QTest::keyClick(&test.view(), Qt::Key_Y);
+        test.move_by({-4, -4});
+        QTest::qWait(20);
+        test.let_go();
+        QCOMPARE(test.positions()(node, 0), 1.0);
+        QVERIFY(test.positions()(node, 1) > opened(node, 1));
+        // N is the normal while something is in hand, not the shortcut of the nodes.
+        test.click("tool_undo");
+        test.take(node);
+        QTest::keyClick(&test.view(), Qt::Key_N);
+        test.move_by({-20, -12});
+        test.let_go();
+        QVERIFY(test.positions()(node, 0) < 1.0);
+        QCOMPARE(test.positions()(node, 1), opened(node, 1));
+        QCOMPARE(test.window->action(CommandId::nodes)->isChecked(), shows_nodes);
+        // Shift is the normal too.
+        test.click("tool_undo");
+        test.take(node, Qt::ShiftModifier);
+        test.move_by({20, -12}, Qt::ShiftModifier);
+        QTest::mouseRelease(&test.view(), Qt::LeftButton, Qt::ShiftModifier, test.mouse);
+        QVERIFY(QTest::qWaitFor([&] { return !test.drag().is_active(); }, 20000));
+        QVERIFY(test.positions()(node, 0) > 1.0);
+        QCOMPARE(test.positions()(node, 1), opened(node, 1));
+    }
+
+    void the_node_in_hand_snaps() {
+        DragUnderTest test;
+        EditSettings settings = test.window->edit().settings();
+        settings.snap.target = SnapTarget::grid;
+        settings.snap.grid_spacing = 0.05;
+        test.window->edit().set_settings(settings);
+        const Index node = test.node_at(0.5, 0.0);
+        test.drag_node(node, {static_cast<int>(0.093 / test.unit()), -static_cast<int>(0.06 / test.unit())});
+        QVERIFY(std::abs(test.positions()(node, 0) - 0.6) < 1e-12);
+        QVERIFY(std::abs(test.positions()(node, 1) - 0.05) < 1e-12);
+
+        settings.snap.target = SnapTarget::circle;
+        settings.snap.center = {0.5, 0.5, 0.0};
+        settings.snap.radius = 0.55;
+        test.window->edit().set_settings(settings);
+        const Index other = test.node_at(1.0, 0.5);
+        test.drag_node(other, {10, -10});
+        QVERIFY(std::abs((test.positions().row(other) - Eigen::RowVector3d(0.5, 0.5, 0.0)).norm() - 0.55) < 1e-12);
+        QVERIFY(test.positions()(other, 1) > 0.5);
+    }
+
+    void beside_the_boundary_the_mouse_moves_the_view() {
+        DragUnderTest test;
+        const Index inside = test.node_at(0.5, 0.5);
+        const QPoint at = test.place_of(inside);
+        const Coordinates opened = test.positions();
+        test.point_at(at);
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, at);
+        test.mouse = at;
+        test.move_by({40, 25});
+        QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, test.mouse);
+        QVERIFY((test.place_of(inside) - at - QPoint(40, 25)).manhattanLength() <= 2);
+        QCOMPARE(test.positions(), opened);
+        QCOMPARE(test.document().history()->count(), 0);
+    }
+
+    void a_hand_that_is_quicker_than_the_weights_gets_the_same() {
+        DragUnderTest test;
+        const Index node = test.node_at(0.5, 0.0);
+        test.drag_node(node, {8, -12});
+        const Coordinates slow = test.positions();
+        test.click("tool_undo");
+        const QPoint at = test.place_of(node);
+        test.point_at(at);
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, at);
+        QMouseEvent move(QEvent::MouseMove, at + QPoint(8, -12), test.view().mapToGlobal(at + QPoint(8, -12)),
+                         Qt::NoButton, Qt::LeftButton, {});
+        QApplication::sendEvent(&test.view(), &move);
+        QMouseEvent release(QEvent::MouseButtonRelease, at + QPoint(8, -12),
+                            test.view().mapToGlobal(at + QPoint(8, -12)), Qt::LeftButton, Qt::NoButton, {});
+        QApplication::sendEvent(&test.view(), &release);
+        QVERIFY(QTest::qWaitFor([&] { return !test.drag().is_active(); }, 20000));
+        QVERIFY((test.positions() - slow).cwiseAbs().maxCoeff() < 1e-12);
+    }
+
+    void a_drag_that_begins_at_a_dragged_mesh_goes_back_exactly() {
+        DragUnderTest test;
+        const Index node = test.node_at(0.5, 0.0);
+        const Coordinates opened = test.positions();
+        test.drag_node(node, {10, -14});
+        test.drag_node(node, {-10, 14});
+        // There and back: the response is linear in the displacement from the mesh as opened.
+        QVERIFY((test.positions() - opened).cwiseAbs().maxCoeff() < 1.5 * test.unit());
+        QCOMPARE(test.document().history()->count(), 2);
+        QVERIFY(test.distance_from_warp() < 1e-10);
+    }
+
+    void solids_are_turned_until_the_tool_is_chosen() {
+        WindowUnderTest window;
+        window.open(window.inputs.path(QStringLiteral("cube.msh")));
+        QVERIFY(window.window->action(CommandId::tool_look)->isChecked());
+        window.open(window.inputs.path(QStringLiteral("square.msh")));
+        QVERIFY(window.window->action(CommandId::tool_drag)->isChecked());
+    }
+
+    void a_node_of_a_solid_moves_along_an_axis() {
+        DragUnderTest test("cube.msh");
+        // The corner that looks at the eye.
+        Index nearest = 0;
+        const Eigen::Vector3d eye = test.view().view_axes().col(2);
+        for (const Index node : test.topology().boundary_nodes())
+            if (test.positions().row(node).dot(eye) > test.positions().row(nearest).dot(eye)) nearest = node;
+        const Coordinates opened = test.positions();
+        test.take(nearest);
+        QTest::keyClick(&test.view(), Qt::Key_Z);
+        const QPointF up = test.view().to_display(opened.row(nearest) + Eigen::RowVector3d(0.0, 0.0, 0.1)) -
+                           test.view().to_display(opened.row(nearest));
+        test.move_by(up.toPoint());
+        test.let_go();
+        const Eigen::RowVector3d way = test.positions().row(nearest) - opened.row(nearest);
+        QCOMPARE(way[0], 0.0);
+        QCOMPARE(way[1], 0.0);
+        QVERIFY(std::abs(way[2] - 0.1) < 0.02);
+        for (const Index node : test.topology().boundary_nodes())
+            if (node != nearest) QCOMPARE(test.positions().row(node), opened.row(node));
+        QVERIFY(test.distance_from_warp() < 1e-10);
+    }
+
+    void meshes_without_quality_can_be_dragged() {
+        DragUnderTest test("quad.msh");
+        const Index corner = test.topology().boundary_nodes().front();
+        const Coordinates opened = test.positions();
+        test.drag_node(corner, {-12, 8});
+        QVERIFY((test.positions().row(corner) - opened.row(corner)).norm() > 0.0);
+        QCOMPARE(test.document().history()->count(), 1);
+    }
+};
+
+QObject* make_test() {
+    return new DragTest;
+}
+
+#include "drag_test.moc"
