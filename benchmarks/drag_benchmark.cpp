@@ -103,3 +103,20 @@ DRAG_BENCHMARKS(P3_triangles_120k, false, 245);
 DRAG_BENCHMARKS(P3_tetrahedra_20k, true, 15);
 
 }  // namespace
+
+namespace {
+
+void tessellate_anew(benchmark::State& state, bool is_solid, int n, int order) {
+    Subject& its = subject(is_solid, n, order);
+    for (auto _ : state) benchmark::DoNotOptimize(Tessellation(its.mesh));
+}
+void check_fineness(benchmark::State& state, bool is_solid, int n, int order) {
+    Subject& its = subject(is_solid, n, order);
+    for (auto _ : state) benchmark::DoNotOptimize(its.tessellation->is_fine_enough(its.drag->positions()));
+}
+BENCHMARK_CAPTURE(tessellate_anew, P3_triangles_20k, false, 100, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(check_fineness, P3_triangles_20k, false, 100, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(tessellate_anew, P3_triangles_120k, false, 245, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK_CAPTURE(check_fineness, P3_triangles_120k, false, 245, 3)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace

@@ -1,6 +1,7 @@
 #include "ui/scene/mesh_scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <vtkActor.h>
@@ -53,6 +54,16 @@ std::vector<float> select_points(const Tessellation& tessellation, bool on_bound
     return points;
 }
 
+/// Where elements are many they are small on the screen, and the chord tolerance alone is enough: pieces are what a
+/// frame costs. Few elements are cut finer, so that they stay smooth when one comes close.
+TessellationOptions tessellation_options(const MeshTopology& topology) {
+    TessellationOptions options;
+    const std::size_t faces = topology.dimension() == 3 ? topology.boundary_facets().size()
+                                                        : static_cast<std::size_t>(topology.element_count());
+    options.min_subdivisions = faces <= 8000 ? 4 : faces <= 40000 ? 2 : 1;
+    return options;
+}
+
 /// One flag per element; empty = all are visible.
 std::vector<bool> find_visible(const CurvedMesh& mesh, const std::optional<ClipPlane>& clip) {
     if (!clip || clip->position >= 1.0 || mesh.topology().dimension() < 3) return {};
@@ -87,8 +98,8 @@ struct MeshScene::Parts {
     WorldFrame frame;
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
-    double typical_spacing = 0.0;  ///< world
-    int frame_number = 0;          ///< of a motion
+    double typical_spacing = 0.0;                                 ///< world
+    std::chrono::steady_clock::time_point next_fineness_check{};  ///< of a motion
 
     CameraControl camera{renderer};
     SurfaceActor surface;
@@ -164,7 +175,7 @@ struct MeshScene::Parts {
         if (moves)
             tessellation->move(mesh->coordinates());
         else
-            tessellation = std::make_unique<Tessellation>(*mesh, visible);
+            tessellation = std::make_unique<Tessellation>(*mesh, visible, tessellation_options(mesh->topology()));
         surface.set_lit(!is_flat());
         surface.set_surface(*tessellation, !moves);
         surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
@@ -187,16 +198,29 @@ struct MeshScene::Parts {
 
     /// A frame of a motion: see MeshScene::show_frame.
     void draw_frame(bool has_new_quality) {
-        // Telling whether a side bends too much for its chords costs as much as moving all of them: once in a while.
-        constexpr int frames_between_checks = 6;
-        if (frame_number++ % frames_between_checks == 0 && !tessellation->is_fine_enough(mesh->coordinates())) {
-            draw_mesh(false);
-            return;
+        // Telling whether a side bends too much for its chords costs as much as moving all of them: a tenth of the
+        // time.
+        const auto now = std::chrono::steady_clock::now();
+        if (now >= next_fineness_check) {
+            const bool is_fine = tessellation->is_fine_enough(mesh->coordinates());
+            const auto end = std::chrono::steady_clock::now();
+            next_fineness_check = end + 9 * (end - now);
+            if (!is_fine) {
+                draw_mesh(false);
+                return;
+            }
         }
         tessellation->move(mesh->coordinates());
+        // Lines between very small elements are many and hardly seen: not while things move.
+        constexpr double seen_spacing = 6.0;  // units of the pixel ratio
+        constexpr std::size_t many_lines = 20000;
+        const bool are_too_many =
+            tessellation->line_elements().size() > many_lines &&
+            typical_spacing * view().pixels_per_unit(camera.distance()) < seen_spacing * options.pixel_ratio;
+        edges.actor()->SetVisibility(options.show_edges && !are_too_many);
         surface.set_surface(*tessellation, false);
         if (has_new_quality) surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
-        edges.move_lines(select_points(*tessellation, false));
+        if (!are_too_many) edges.move_lines(select_points(*tessellation, false));
         boundary.move_lines(select_points(*tessellation, true));
         if (options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
         if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
