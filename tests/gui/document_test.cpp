@@ -162,7 +162,7 @@ class DocumentTest : public QObject {
         QCOMPARE(groups[0].name, QStringLiteral("domain"));
         QCOMPARE(groups[0].elements.size(), std::size_t(32));
         QCOMPARE(groups[1].name, QStringLiteral("bottom"));
-        QCOMPARE(groups[1].node_count, 13);
+        QCOMPARE(groups[1].nodes.size(), std::size_t{13});
         QCOMPARE(groups[1].elements.size(), std::size_t(4));
     }
 

@@ -33,12 +33,26 @@ struct SnapSettings {
     double thickness = 0.12;         ///< of the profile, fraction of the chord
 };
 
+/// What a click, box or lasso selects.
+enum class SelectWhat {
+    boundary_nodes,  ///< and by a click beside them the element there
+    nodes,           ///< interior ones too
+    elements,
+};
+
+struct SelectSettings {
+    SelectWhat what = SelectWhat::boundary_nodes;
+    bool is_lasso = false;      ///< else a box
+    bool sees_through = false;  ///< solids: what the surface hides too
+};
+
 struct EditSettings {
     GrabUnit unit = GrabUnit::node;
     bool is_soft = true;
     SoftSelection soft;  ///< radius 0: chosen from the mesh's size when it is opened
     DragDirection direction = DragDirection::view_plane;
     SnapSettings snap;
+    SelectSettings select;
 };
 
 /// The position that a point snaps to. pre: target is not `nothing`. A point for which the projection is undefined (the

@@ -82,9 +82,9 @@ QVector<GroupLine> list_groups(const MeshTopology& topology) {
     QVector<GroupLine> lines;
     for (const PhysicalGroup& group : topology.groups()) {
         const std::string name = MeshTopology::display_name(group);
-        const auto nodes = topology.find_group_nodes(name).value_or(std::vector<Index>());
-        lines.push_back({QString::fromStdString(name), group.dimension, static_cast<Index>(nodes.size()),
-                         elements_of_group(topology, group, nodes)});
+        auto nodes = topology.find_group_nodes(name).value_or(std::vector<Index>());
+        std::vector<Index> elements = elements_of_group(topology, group, nodes);
+        lines.push_back({QString::fromStdString(name), group.dimension, std::move(nodes), std::move(elements)});
     }
     // Not the locale of the environment: that of C does not know numbers.
     QCollator collator(QLocale(QLocale::English, QLocale::UnitedStates));

@@ -21,7 +21,7 @@ QString validity_sentence(const QualitySummary& summary);
 struct GroupLine {
     QString name;
     int dimension = 0;
-    Index node_count = 0;
+    std::vector<Index> nodes;
     /// Elements of the group; for a group of lower dimension, the elements that have a facet on it.
     std::vector<Index> elements;
 };

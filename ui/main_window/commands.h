@@ -23,14 +23,28 @@ enum class CommandId {
     undo,
     redo,
     tool_look,
+    tool_select,
     tool_drag,
+    tool_transform,
+    tool_pin,
     soft,
+    select_all,
+    select_none,
+    select_invert,
+    select_grow,
+    select_shrink,
+    select_side,
+    select_boundary,
+    select_tangled,
+    pin_selection,
+    unpin_all,
     deform,
     warp,
     untangle,
     flip,
     stop,
     fit,
+    fit_selection,
     look_front,
     look_back,
     look_left,
@@ -51,7 +65,7 @@ enum class CommandId {
 };
 
 /// Where a command stands in the menu bar.
-enum class CommandMenu { file, edit, mesh, view, look, theme, help };
+enum class CommandMenu { file, edit, select, mesh, view, look, theme, help };
 
 /// One command of the window. Menus, tool bar, tool tips, the page of shortcuts and the tests all read commands().
 struct Command {

@@ -1,5 +1,6 @@
 #include "ui/main_window/main_window.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <QAction>
@@ -178,11 +179,13 @@ void MainWindow::connect_panels() {
     connect(deform_panel_, &DeformPanel::load_requested, this, &MainWindow::ask_load_deformation);
     connect(banner_, &Banner::action_triggered, this, [this] { jobs_.flip(); });
     connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
-    connect(worst_table_, &WorstTable::element_chosen, this, [this](Index element) { highlight({element}, true); });
+    connect(worst_table_, &WorstTable::element_chosen, this,
+            [this](Index element) { select_elements({element}, true); });
     connect(quality_panel_, &QualityPanel::elements_chosen, this,
-            [this](const std::vector<Index>& elements) { highlight(elements, false); });
+            [this](const std::vector<Index>& elements) { select_elements(elements, false); });
     connect(mesh_panel_, &MeshPanel::elements_chosen, this,
-            [this](const std::vector<Index>& elements) { highlight(elements, false); });
+            [this](const std::vector<Index>& elements) { select_elements(elements, false); });
+    connect(mesh_panel_, &MeshPanel::nodes_chosen, &edit_, &EditState::select_nodes);
     connect(view_, &MeshView::element_clicked, this, &MainWindow::tell_element);
 }
 
@@ -205,8 +208,8 @@ void MainWindow::show_opened() {
 
 void MainWindow::show_state() {
     const MeshState& state = document_.state();
-    view_->set_highlighted_elements({});
     view_->show_state(state);
+    view_->set_highlighted_elements(edit_.elements());
     verdict_->clear();
     banner_->hide();
     if (state.mesh && !state.quality) {
@@ -257,6 +260,15 @@ void MainWindow::update_commands() {
     actions_[CommandId::stop]->setEnabled(jobs_.runner().is_running());
     for (const auto& [id, tool] : tools_) actions_[id]->setEnabled(has_mesh);
     actions_[CommandId::soft]->setEnabled(has_mesh);
+    const bool has_nodes = has_mesh && !edit_.nodes().empty(), has_elements = has_mesh && !edit_.elements().empty();
+    for (const CommandId id : {CommandId::select_all, CommandId::select_invert}) actions_[id]->setEnabled(has_mesh);
+    for (const CommandId id :
+         {CommandId::select_none, CommandId::select_grow, CommandId::select_shrink, CommandId::fit_selection})
+        actions_[id]->setEnabled(has_nodes || has_elements);
+    for (const CommandId id : {CommandId::select_side, CommandId::select_boundary, CommandId::pin_selection})
+        actions_[id]->setEnabled(has_nodes);
+    actions_[CommandId::select_tangled]->setEnabled(has_mesh && document_.state().quality);
+    actions_[CommandId::unpin_all]->setEnabled(!edit_.pins().empty());
     mesh_panel_->set_history_enabled(is_idle);
 
     const auto step_tip = [](QAction* action, const QString& verb, const QString& step) {
@@ -292,8 +304,10 @@ void MainWindow::update_options() {
     place_clip_bar();
 }
 
-void MainWindow::highlight(const std::vector<Index>& elements, bool fly) {
-    view_->set_highlighted_elements(elements);
+void MainWindow::select_elements(const std::vector<Index>& elements, bool fly) {
+    IndexSet set = elements;
+    std::sort(set.begin(), set.end());
+    edit_.select_elements(set);
     if (elements.size() == 1) {
         if (fly) {
             uncover(elements.front());
@@ -321,11 +335,11 @@ void MainWindow::uncover(Index element) {
 void MainWindow::tell_element(std::optional<Index> element) {
     const MeshState& state = document_.state();
     if (!element || !state.mesh) {
-        view_->set_highlighted_elements({});
+        edit_.select({}, {});
         statusBar()->clearMessage();
         return;
     }
-    view_->set_highlighted_elements({*element});
+    edit_.select_elements({*element});
     const MeshTopology& topology = state.mesh->topology();
     const Eigen::RowVector3d center = state.mesh->element_center(*element);
     QString text = tr("Element %1, %2, centre (%3, %4, %5)")

@@ -33,6 +33,7 @@ class MeshPanel;
 class MeshView;
 class PointerTag;
 class QualityPanel;
+class SelectionPanel;
 class StartPage;
 class Tool;
 class UntanglePanel;
@@ -59,7 +60,7 @@ class MainWindow : public QMainWindow {
     void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
     void open_sample(const Sample& sample);
     const SampleCatalog& samples() const { return samples_; }
-    /// Brings up a tab of the right panel: "edit", "deform", "warp" or "untangle".
+    /// Brings up a tab of the right panel: "edit", "inspect", "deform", "warp" or "untangle".
     void show_tab(const QString& name);
     /// Writes what the view shows, at `scale` times its size; tells the user if that fails.
     bool save_picture(const QString& path, int scale);
@@ -95,7 +96,7 @@ class MainWindow : public QMainWindow {
     void update_commands();
     void update_options();
     void choose_theme(Theme::Choice choice);
-    void highlight(const std::vector<Index>& elements, bool fly);
+    void select_elements(const std::vector<Index>& elements, bool fly);
     /// Moves the clip plane, or takes it away, if it keeps the element out of sight.
     void uncover(Index element);
     void tell_element(std::optional<Index> element);
@@ -104,6 +105,8 @@ class MainWindow : public QMainWindow {
     // main_window_editing.cpp
     void build_tools();
     void connect_editing();
+    void connect_selection();
+    void fit_selection();
     /// The tool that the view is to have now; null = the camera alone.
     Tool* current_tool() const;
     QString tool_setting() const;
@@ -144,6 +147,7 @@ class MainWindow : public QMainWindow {
     PointerTag* pointer_tag_ = nullptr;
     std::map<CommandId, Tool*> tools_;
     EditPanel* edit_panel_ = nullptr;
+    SelectionPanel* selection_panel_ = nullptr;
     MeshPanel* mesh_panel_ = nullptr;
     QTabWidget* tabs_ = nullptr;
     DeformPanel* deform_panel_ = nullptr;

@@ -14,19 +14,26 @@
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/tools/drag_tool.h"
+#include "ui/tools/look_tool.h"
+#include "ui/tools/pin_tool.h"
+#include "ui/tools/select_tool.h"
+#include "ui/tools/transform_tool.h"
 
 namespace curvewright {
 
 void MainWindow::build_tools() {
     pointer_tag_ = new PointerTag(view_);
     const ToolContext context{*view_, edit_, drag_};
-    tools_[CommandId::tool_look] = nullptr;
+    tools_[CommandId::tool_look] = new LookTool(context, this);
+    tools_[CommandId::tool_select] = new SelectTool(context, this);
     tools_[CommandId::tool_drag] = new DragTool(context, this);
+    tools_[CommandId::tool_transform] = new TransformTool(context, this);
+    tools_[CommandId::tool_pin] = new PinTool(context, this);
     auto* group = new QActionGroup(this);
     for (const auto& [id, tool] : tools_) {
         group->addAction(actions_[id]);
         connect(actions_[id], &QAction::toggled, this, &MainWindow::update_tool);
-        if (tool) connect(tool, &Tool::hint_changed, this, &MainWindow::update_hint);
+        connect(tool, &Tool::hint_changed, this, &MainWindow::update_hint);
     }
     // Chosen by the user, each for meshes of its kind.
     for (const auto& [id, tool] : tools_)
@@ -76,6 +83,7 @@ void MainWindow::connect_editing() {
     actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
     connect(warp_panel_, &OperationPanel::refreshed, this, [this] { drag_.set_weights(warp_panel_->options()); });
     drag_.set_weights(warp_panel_->options());
+    connect_selection();
     update_tool();
 }
 
@@ -106,12 +114,10 @@ void MainWindow::update_tool() {
 void MainWindow::update_hint() {
     if (const Tool* tool = current_tool())
         hint_->setText(tool->hint());
-    else if (!document_.has_mesh())
-        hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
-    else if (document_.state().mesh->topology().dimension() == 3)
-        hint_->setText(tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?"));
+    else if (document_.has_mesh())
+        hint_->setText(tr("wait, or look around: drag and wheel move the view"));
     else
-        hint_->setText(tr("drag: move · wheel: zoom to the pointer · click: what is this element?"));
+        hint_->setText(tr("Open a mesh, drop one here, or choose a sample."));
 }
 
 void MainWindow::show_frame(const Coordinates& positions, const QualityReport* quality) {

@@ -26,6 +26,7 @@
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/selection_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/untangle_panel.h"
 #include "ui/panels/widgets.h"
@@ -53,6 +54,7 @@ void MainWindow::build_menus() {
     menus[CommandMenu::file] = menuBar()->addMenu(tr("&File"));
     menus[CommandMenu::edit] = menuBar()->addMenu(tr("&Edit"));
     menus[CommandMenu::view] = menuBar()->addMenu(tr("&View"));
+    menus[CommandMenu::select] = menuBar()->addMenu(tr("&Select"));
     menus[CommandMenu::mesh] = menuBar()->addMenu(tr("&Mesh"));
     menus[CommandMenu::help] = menuBar()->addMenu(tr("&Help"));
     menus[CommandMenu::look] = new QMenu(tr("Look &from"), this);
@@ -157,7 +159,8 @@ QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt:
 
 void MainWindow::build_docks() {
     mesh_panel_ = new MeshPanel(document_);
-    edit_panel_ = new EditPanel(edit_);
+    edit_panel_ = new EditPanel(edit_, drag_);
+    selection_panel_ = new SelectionPanel(edit_);
     deform_panel_ = new DeformPanel(jobs_);
     warp_panel_ = new WarpPanel(jobs_);
     untangle_panel_ = new UntanglePanel(jobs_);
@@ -174,6 +177,7 @@ void MainWindow::build_docks() {
         const char* name;
         QString title;
     } tabs[] = {{edit_panel_, "edit_tab", tr("Edit")},
+                {selection_panel_, "inspect_tab", tr("Inspect")},
                 {deform_panel_, "deform_tab", tr("Deform")},
                 {warp_panel_, "warp_tab", tr("Warp")},
                 {untangle_panel_, "untangle_tab", tr("Untangle")}};
@@ -188,7 +192,7 @@ void MainWindow::build_docks() {
     right->addWidget(worst_table_);
     right->setStretchFactor(0, 0);
     right->setStretchFactor(1, 1);
-    right->setSizes({336, 320});
+    right->setSizes({420, 236});
     right->setChildrenCollapsible(false);
 
     left_dock_ = add_dock(QStringLiteral("mesh_dock"), tr("Mesh"), Qt::LeftDockWidgetArea, mesh_panel_);

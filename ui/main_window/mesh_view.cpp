@@ -296,17 +296,28 @@ bool MeshView::draws_element(Index element) const {
 }
 
 void MeshView::fly_to(Index element) {
+    fly([this, element] { parts_->scene.focus_element(element); });
+}
+
+void MeshView::fit_to(const Eigen::RowVector3d& center, double radius) {
+    fly([&] { parts_->scene.focus_ball(center, radius); });
+}
+
+void MeshView::fly(const std::function<void()>& set) {
     Parts& parts = *parts_;
     parts.flight.stop();
     vtkRenderer* renderer = parts.scene.renderer();
     const CameraPose start = CameraPose::of(renderer->GetActiveCamera());
-    parts.scene.focus_element(element);
+    set();
     const CameraPose end = CameraPose::of(renderer->GetActiveCamera());
     parts.flight.disconnect(this);
     connect(&parts.flight, &QVariantAnimation::valueChanged, this, [this, renderer, start, end](const QVariant& value) {
         between(start, end, value.toDouble()).apply(renderer->GetActiveCamera());
         renderer->ResetCameraClippingRange();
         request_frame();
+    });
+    connect(&parts.flight, &QVariantAnimation::finished, this, [this] {
+        if (parts_->tool) parts_->tool->refresh();
     });
     parts.flight.start();
 }

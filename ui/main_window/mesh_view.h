@@ -40,6 +40,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     bool draws_element(Index element) const;
     /// Moves the camera to an element within 200 ms.
     void fly_to(Index element);
+    /// Moves the camera so that a ball fills the view; radius 0: a little of the mesh around the point.
+    void fit_to(const Eigen::RowVector3d& center, double radius);
 
     /// What the view shows, drawn anew at `scale` times its size in device pixels. Null if nothing can be drawn.
     QImage picture(int scale);
@@ -82,6 +84,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
 
     void release_graphics();
     void request_frame();
+    /// From where the camera is to where `set` puts it.
+    void fly(const std::function<void()>& set);
     void send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat = false);
     void scale_to_device();
     /// Device pixels, origin bottom left, as the scene counts.

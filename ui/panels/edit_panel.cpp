@@ -1,9 +1,12 @@
 #include "ui/panels/edit_panel.h"
 
+#include <numbers>
+
 #include <QCheckBox>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QPushButton>
 #include <QVBoxLayout>
 
 #include "ui/panels/form_fields.h"
@@ -24,12 +27,110 @@ LogSpinBox* make_length(const char* object_name) {
 
 }  // namespace
 
-EditPanel::EditPanel(EditState& edit, QWidget* parent) : QWidget(parent), edit_(edit) {
+EditPanel::EditPanel(EditState& edit, LiveDrag& drag, QWidget* parent) : QWidget(parent), edit_(edit), drag_(drag) {
     make_fields();
-    make_panel_layout(this)->addLayout(form_);
+    make_numbers();
+    QVBoxLayout* column = make_panel_layout(this);
+    column->addLayout(form_);
+    column->addSpacing(8);
+    column->addWidget(make_label(tr("Selection by numbers"), "section"));
+    column->addLayout(numbers_form_);
+    column->addWidget(apply_);
     layout()->addItem(new QSpacerItem(0, 0, QSizePolicy::Minimum, QSizePolicy::Expanding));
     connect(&edit, &EditState::settings_changed, this, &EditPanel::show_settings);
+    connect(&edit, &EditState::selection_changed, this, &EditPanel::show_numbers);
+    connect(&drag, &LiveDrag::active_changed, this, &EditPanel::show_numbers);
+    connect(&edit.document(), &MeshDocument::opened, this, &EditPanel::show_numbers);
     show_settings();
+    show_numbers();
+}
+
+void EditPanel::make_numbers() {
+    motion_ = make_choice("motion", tr("What becomes of the selected nodes; the interior follows."),
+                          {{tr("Move by"), 0, tr("along a vector.")},
+                           {tr("Turn by"), 1, tr("about the middle of the selection.")},
+                           {tr("Scale by"), 2, tr("about the middle of the selection.")}});
+    numbers_row_ = new QWidget;
+    auto* row = new QHBoxLayout(numbers_row_);
+    row->setContentsMargins(0, 0, 0, 0);
+    row->setSpacing(4);
+    const char* names[] = {"motion_x", "motion_y", "motion_z"};
+    for (int d = 0; d < 3; ++d) {
+        numbers_[d] = make_number(names[d], -1e12, 1e12, 0.1, 6, 0.0);
+        numbers_[d]->setButtonSymbols(QAbstractSpinBox::NoButtons);
+        numbers_[d]->setMinimumWidth(40);
+        row->addWidget(numbers_[d], 1);
+    }
+    angle_ = make_number("motion_angle", -3600.0, 3600.0, 5.0, 4, 0.0);
+    angle_->setSuffix(QStringLiteral("°"));
+    axis_ = make_choice("motion_axis", tr("The direction that the selection turns about."),
+                        {{tr("x"), 0, tr("x")}, {tr("y"), 1, tr("y")}, {tr("z"), 2, tr("z")}});
+    axis_->setCurrentIndex(2);
+    apply_ = new QPushButton(tr("Apply"));
+    apply_->setObjectName(QStringLiteral("apply_motion"));
+    numbers_form_ = make_form();
+    numbers_form_->addRow(tr("Motion"), motion_);
+    numbers_form_->addRow(tr("x, y, z"), numbers_row_);
+    numbers_form_->addRow(tr("Angle"), angle_);
+    numbers_form_->addRow(tr("About"), axis_);
+    align_labels(numbers_form_);
+    connect(motion_, &QComboBox::currentIndexChanged, this, [this](int motion) {
+        for (QDoubleSpinBox* number : numbers_) number->setValue(motion == 2 ? 1.0 : 0.0);
+        show_numbers();
+    });
+    connect(apply_, &QPushButton::clicked, this, &EditPanel::apply_numbers);
+}
+
+void EditPanel::show_numbers() {
+    const MeshState& state = edit_.document().state();
+    const bool is_solid = state.mesh && state.mesh->topology().dimension() == 3;
+    const bool turns = motion_->currentData().toInt() == 1;
+    numbers_form_->setRowVisible(numbers_row_, !turns);
+    numbers_form_->setRowVisible(angle_, turns);
+    numbers_form_->setRowVisible(axis_, turns && is_solid);
+    numbers_[2]->setVisible(is_solid);
+    static_cast<QLabel*>(numbers_form_->labelForField(numbers_row_))->setText(is_solid ? tr("x, y, z") : tr("x, y"));
+    const bool can_apply = state.mesh && !without(edit_.nodes(), edit_.pins()).empty() && !drag_.is_active();
+    apply_->setEnabled(can_apply);
+    apply_->setToolTip(edit_.nodes().empty() ? tr("Select nodes first, with the select tool or by a group")
+                                             : QString());
+}
+
+void EditPanel::apply_numbers() {
+    const CurvedMesh& mesh = *edit_.document().state().mesh;
+    const IndexSet nodes = without(edit_.nodes(), edit_.pins());
+    if (nodes.empty() || drag_.is_active()) return;
+    Eigen::RowVector3d low = mesh.coordinates().row(nodes.front()), high = low;
+    for (const Index node : nodes) {
+        low = low.cwiseMin(mesh.coordinates().row(node));
+        high = high.cwiseMax(mesh.coordinates().row(node));
+    }
+    const bool is_solid = mesh.topology().dimension() == 3;
+    Eigen::Vector3d numbers(numbers_[0]->value(), numbers_[1]->value(), numbers_[2]->value());
+    const QString count = tr("%1 nodes").arg(nodes.size());
+    DragRequest request{edit_.dragged(nodes), ResponseKind::affine, 0.5 * (low + high).transpose(), {}};
+    AffineMotion motion;
+    switch (motion_->currentData().toInt()) {
+        case 0:
+            if (!is_solid) numbers[2] = 0.0;
+            motion = AffineMotion::translation(numbers);
+            request.kind = ResponseKind::translation;
+            request.name = tr("Move %1").arg(count);
+            break;
+        case 1:
+            motion = AffineMotion::rotation(Eigen::Vector3d::Unit(is_solid ? axis_->currentData().toInt() : 2),
+                                            angle_->value() * std::numbers::pi / 180.0);
+            request.name = tr("Turn %1 by %2°").arg(count).arg(angle_->value());
+            break;
+        default:
+            if (!is_solid) numbers[2] = 1.0;
+            motion = AffineMotion::scaling(numbers);
+            request.name = tr("Scale %1").arg(count);
+            break;
+    }
+    drag_.begin(request);
+    drag_.move(motion);
+    drag_.finish();
 }
 
 void EditPanel::make_fields() {

@@ -3,21 +3,24 @@
 #include <QWidget>
 
 #include "ui/document/edit_state.h"
+#include "ui/jobs/live_drag.h"
 
 class QCheckBox;
 class QComboBox;
 class QDoubleSpinBox;
 class QFormLayout;
 class QLabel;
+class QPushButton;
 
 namespace curvewright {
 
-/// How the next drag goes: what is taken, how far it reaches, where it may go, what it snaps to.
+/// How the next drag goes: what is taken, how far it reaches, where it may go, what it snaps to; and motions of the
+/// selection by numbers.
 class EditPanel : public QWidget {
     Q_OBJECT
 
   public:
-    explicit EditPanel(EditState& edit, QWidget* parent = nullptr);
+    EditPanel(EditState& edit, LiveDrag& drag, QWidget* parent = nullptr);
 
   private:
     void make_fields();
@@ -25,7 +28,12 @@ class EditPanel : public QWidget {
     void read_settings();
     void show_rows();
 
+    void make_numbers();
+    void show_numbers();
+    void apply_numbers();
+
     EditState& edit_;
+    LiveDrag& drag_;
     bool is_showing_ = false;
     QFormLayout* form_ = nullptr;
     QComboBox *unit_ = nullptr, *falloff_ = nullptr, *direction_ = nullptr, *snap_ = nullptr;
@@ -33,6 +41,11 @@ class EditPanel : public QWidget {
     QDoubleSpinBox *radius_ = nullptr, *spacing_ = nullptr, *size_ = nullptr, *thickness_ = nullptr;
     QDoubleSpinBox* center_[3] = {};
     QWidget* center_row_ = nullptr;
+    QFormLayout* numbers_form_ = nullptr;
+    QComboBox *motion_ = nullptr, *axis_ = nullptr;
+    QDoubleSpinBox *numbers_[3] = {}, *angle_ = nullptr;
+    QWidget* numbers_row_ = nullptr;
+    QPushButton* apply_ = nullptr;
     QLabel *size_label_ = nullptr, *center_label_ = nullptr;
 };
 

@@ -65,7 +65,11 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     connect(&document, &MeshDocument::state_changed, this, &MeshPanel::show_state);
     connect(&document, &MeshDocument::file_path_changed, this, &MeshPanel::show_file);
     connect(groups_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
-        emit elements_chosen(group_lines_[groups_->indexOfTopLevelItem(item)].elements);
+        const GroupLine& line = group_lines_[groups_->indexOfTopLevelItem(item)];
+        if (line.dimension == document_.state().mesh->topology().dimension())
+            emit elements_chosen(line.elements);
+        else
+            emit nodes_chosen(line.nodes);
     });
     show_file();
     show_state();
@@ -131,7 +135,7 @@ void MeshPanel::show_groups() {
     group_lines_ = document_.has_mesh() ? list_groups(document_.state().mesh->topology()) : QVector<GroupLine>();
     static const QString kinds[] = {tr("points"), tr("curves"), tr("surface"), tr("volume")};
     for (const GroupLine& line : group_lines_) {
-        auto* item = new QTreeWidgetItem(groups_, {line.name, format_count(line.node_count)});
+        auto* item = new QTreeWidgetItem(groups_, {line.name, format_count(static_cast<long long>(line.nodes.size()))});
         item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
         item->setToolTip(0, tr("%1 (%2)").arg(line.name, kinds[qBound(0, line.dimension, 3)]));
     }

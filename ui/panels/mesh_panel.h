@@ -25,8 +25,10 @@ class MeshPanel : public QWidget {
     void set_history_enabled(bool is_enabled);
 
   signals:
-    /// Elements of a group that the user clicked.
+    /// Elements of a group of elements that the user clicked.
     void elements_chosen(const std::vector<Index>& elements);
+    /// Nodes of a group of boundary or inner sides, or of points, that the user clicked.
+    void nodes_chosen(const std::vector<Index>& nodes);
 
   protected:
     bool eventFilter(QObject* watched, QEvent* event) override;

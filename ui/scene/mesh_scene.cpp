@@ -386,6 +386,14 @@ void MeshScene::focus_element(Index element) {
     parts_->camera.focus(parts.frame.to_world(center), radius / parts.frame.size, facing);
 }
 
+void MeshScene::focus_ball(const Eigen::RowVector3d& center, double radius) {
+    if (!parts_->mesh) return;
+    // focus() leaves room for the surroundings of an element: a ball that is to fill the view counts for less.
+    constexpr double filling = 0.25;
+    const double size = radius > 0.0 ? radius / parts_->frame.size : 0.05;
+    parts_->camera.focus(parts_->frame.to_world(center), filling * size, Eigen::RowVector3d::Zero());
+}
+
 bool MeshScene::draws_element(Index element) const {
     if (!parts_->tessellation) return false;
     const std::vector<Index>& drawn = parts_->tessellation->triangle_elements();

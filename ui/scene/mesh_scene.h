@@ -66,6 +66,9 @@ class MeshScene {
     /// Moves the camera so that the element fills a good part of the view.
     void focus_element(Index element);
 
+    /// Moves the camera so that a ball (mesh units) fills the view; radius 0: with a twentieth of the mesh around it.
+    void focus_ball(const Eigen::RowVector3d& center, double radius);
+
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
 
