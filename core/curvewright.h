@@ -29,6 +29,8 @@
 #include "core/mesh/elevate.h"
 #include "core/mesh/mesh_topology.h"
 #include "core/quality/quality.h"
+#include "core/session/replay.h"
+#include "core/session/session_file.h"
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/observer.h"
 #include "core/untangle/signed_angles.h"

@@ -69,5 +69,6 @@ void add_warp(CLI::App& app, Invocation& invocation);
 void add_untangle(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
+void add_replay(CLI::App& app, Invocation& invocation);
 
 }  // namespace curvewright::cli

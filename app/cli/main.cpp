@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     add_untangle(app, invocation);
     add_convert(app, invocation);
     add_render(app, invocation);
+    add_replay(app, invocation);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -49,8 +49,8 @@ class DocumentTest : public QObject {
 
         const MeshState first = state_of(moved(square, 0.5)), second = state_of(moved(square, 0.75));
         QSignalSpy changes(&document, &MeshDocument::state_changed);
-        document.apply(QStringLiteral("first"), first);
-        document.apply(QStringLiteral("second"), second);
+        document.apply(QStringLiteral("first"), first, FlipAction{});
+        document.apply(QStringLiteral("second"), second, FlipAction{});
         QCOMPARE(changes.count(), 2);
         QVERIFY(document.is_dirty());
         QCOMPARE(document.state().mesh, second.mesh);
@@ -72,7 +72,7 @@ class DocumentTest : public QObject {
         MeshDocument document;
         const CurvedMesh square = square_mesh(2, 2);
         document.open({state_of(square), QStringLiteral("a.msh"), {}});
-        document.apply(QStringLiteral("step"), state_of(moved(square, 1.0)));
+        document.apply(QStringLiteral("step"), state_of(moved(square, 1.0)), FlipAction{});
         QSignalSpy dirty(&document, &MeshDocument::dirty_changed);
         document.mark_saved(QStringLiteral("b.msh"));
         QVERIFY(!document.is_dirty());

@@ -294,13 +294,13 @@ class SelectionTest : public QObject {
         QVERIFY(test.distance_from_warp() < 1e-10);
         test.click("tool_undo");
         auto* motion = test.find<QComboBox>("motion");
-        motion->setCurrentIndex(motion->findText(QStringLiteral("Turn by")));
+        motion->setCurrentIndex(motion->findText(QStringLiteral("Rotate by")));
         test.find<QDoubleSpinBox>("motion_angle")->setValue(30.0);
         test.click("apply_motion");
         QVERIFY(QTest::qWaitFor([&] { return !test.drag().is_active(); }, 20000));
         const Index corner = test.node_at(0.5 + 0.5 * std::sqrt(0.75), 1.0 + 0.25);
         QVERIFY(std::abs(opened(corner, 0) - 1.0) < 1e-12 && std::abs(opened(corner, 1) - 1.0) < 1e-12);
-        QCOMPARE(test.document().history()->text(0), QStringLiteral("Turn 13 nodes by 30°"));
+        QCOMPARE(test.document().history()->text(0), QStringLiteral("Rotate 13 nodes by 30°"));
     }
 };
 

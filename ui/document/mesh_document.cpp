@@ -9,15 +9,21 @@ namespace curvewright {
 /// that the history stands on, so that a jump over many steps shows one change.
 class MeshDocument::StateCommand : public QUndoCommand {
   public:
-    StateCommand(const QString& name, const QString& details, MeshState before, MeshState after)
-        : QUndoCommand(name), details_(details), before_(std::move(before)), after_(std::move(after)) {}
+    StateCommand(const QString& name, const QString& details, Action action, MeshState before, MeshState after)
+        : QUndoCommand(name),
+          details_(details),
+          action_(std::move(action)),
+          before_(std::move(before)),
+          after_(std::move(after)) {}
 
     const QString& details() const { return details_; }
+    const Action& action() const { return action_; }
     const MeshState& before() const { return before_; }
     const MeshState& after() const { return after_; }
 
   private:
     QString details_;
+    Action action_;
     MeshState before_, after_;
 };
 
@@ -49,6 +55,7 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     file_path_ = std::move(opened_mesh.file_path);
     notes_ = std::move(opened_mesh.notes);
     deformation_.reset();
+    session_.clear();
     emit opened();
     emit deformation_changed();
     emit file_path_changed();
@@ -56,15 +63,29 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     emit history_.canUndoChanged(false);
     emit history_.canRedoChanged(false);
     if (was_dirty) emit dirty_changed(false);
+    if (has_mesh()) record(OpenAction{file_path_.toStdString()});
 }
 
 void MeshDocument::close() {
     open({});
 }
 
-void MeshDocument::apply(const QString& name, MeshState state, const QString& details) {
+void MeshDocument::apply(const QString& name, MeshState state, Action action, const QString& details) {
     Q_ASSERT(has_mesh() && state.mesh && state.mesh->topology().node_count() == current_.mesh->topology().node_count());
-    history_.push(new StateCommand(name, details, current_, std::move(state)));
+    is_applying_ = true;
+    history_.push(new StateCommand(name, details, action, current_, std::move(state)));
+    is_applying_ = false;
+    record(std::move(action));
+}
+
+void MeshDocument::record(Action action) {
+    session_.push_back(std::move(action));
+    emit recorded(session_.back());
+}
+
+const Action* MeshDocument::last_action() const {
+    const int index = history_.index();
+    return index == 0 ? nullptr : &static_cast<const StateCommand*>(history_.command(index - 1))->action();
 }
 
 QString MeshDocument::step_details(int step) const {
@@ -92,6 +113,7 @@ void MeshDocument::follow_history() {
         current_ = step->after();
         before_ = step->before();
     }
+    if (!is_applying_ && !session_.empty()) record(HistoryAction{index});
     emit state_changed();
 }
 

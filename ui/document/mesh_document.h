@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include <QObject>
 #include <QString>
@@ -11,6 +12,7 @@
 #include "core/deform/deformation.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/quality/quality.h"
+#include "core/session/action.h"
 
 namespace curvewright {
 
@@ -75,7 +77,12 @@ class MeshDocument : public QObject {
     void close();
     /// Adds one step to the history: its name, as short as a list needs it, and what else there is to know about it.
     /// pre: has_mesh(), as many nodes as the present mesh.
-    void apply(const QString& name, MeshState state, const QString& details = {});
+    /// action: what was done, for the session.
+    void apply(const QString& name, MeshState state, Action action, const QString& details = {});
+    /// Everything that was done since the mesh was opened, undo and redo included; empty without a mesh.
+    const std::vector<Action>& session() const { return session_; }
+    /// The action that led to the present state; none for the mesh as opened.
+    const Action* last_action() const;
     /// What is to be known about a step of the history (0 = the first after opening); "" = nothing.
     QString step_details(int step) const;
     void set_deformation(LoadedDeformation deformation);
@@ -92,16 +99,21 @@ class MeshDocument : public QObject {
     void deformation_changed();
     void dirty_changed(bool is_dirty);
     void file_path_changed();
+    /// session() has one action more.
+    void recorded(const Action& action);
 
   private:
     class StateCommand;
 
     void follow_history();
+    void record(Action action);
 
     MeshState current_, original_, before_;
     QString file_path_;
     QStringList notes_;
     std::optional<LoadedDeformation> deformation_;
+    std::vector<Action> session_;
+    bool is_applying_ = false;
     QUndoStack history_;
 };
 

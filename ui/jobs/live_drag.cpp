@@ -10,7 +10,6 @@
 
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
-#include "core/edit/selection.h"
 
 namespace curvewright {
 namespace {
@@ -165,15 +164,7 @@ void LiveDrag::set_up(const DragRequest& request) {
     is_certifying_ = is_newer_ = false;
     const int generation = ++generation_;
     set_phase(Phase::preparing);
-    WarpOptions options = options_;
-    const MeshTopology& topology = start_.mesh->topology();
-    for (const std::vector<Index>* nodes :
-         std::initializer_list<const std::vector<Index>*>{&request.set.nodes, &pinned_})
-        for (Index node : *nodes)
-            if (topology.is_interior_node(node)) options.prescribed_nodes.push_back(node);
-    std::sort(options.prescribed_nodes.begin(), options.prescribed_nodes.end());
-    options.prescribed_nodes.erase(std::unique(options.prescribed_nodes.begin(), options.prescribed_nodes.end()),
-                                   options.prescribed_nodes.end());
+    const WarpOptions options = drag_options(options_, start_.mesh->topology(), request.set.nodes, pinned_);
     worker_->start([this, generation, options, worker = worker_.get(), base = base_of(document_), start = start_,
                     request](const TaskContext& context) {
         std::shared_ptr<Drag> drag;
@@ -287,9 +278,19 @@ void LiveDrag::keep(std::shared_ptr<QualityReport> report) {
     state.quality = std::move(report);
     state.quality_note = start_.quality_note;
     state.applied_deformations = start_.applied_deformations;
+    const MeshTopology& topology = start_.mesh->topology();
+    DragAction action;
+    for (const Index node : request_.set.nodes) action.nodes.push_back(topology.node_tag(node));
+    action.weights = request_.set.weights;
+    for (const Index node : pinned_)
+        if (topology.is_interior_node(node)) action.pinned.push_back(topology.node_tag(node));
+    action.kind = request_.kind;
+    action.origin = {request_.origin[0], request_.origin[1], request_.origin[2]};
+    action.motion = motion_;
+    action.options = options_;
     const QString name = request_.name;
     close(true);
-    document_.apply(name, state);
+    document_.apply(name, state, std::move(action));
 }
 
 void LiveDrag::cancel() {

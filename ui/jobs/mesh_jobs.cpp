@@ -130,7 +130,9 @@ bool MeshJobs::open(OpenRequest request) {
                 then = request.then] {
             document_.open(opened);
             if (loaded) document_.set_deformation(*loaded);
-            if (deformed) document_.apply(tr("Deform boundary"), *deformed, by_file(loaded->file_path));
+            if (deformed)
+                document_.apply(tr("Deform boundary"), *deformed, DeformAction{loaded->file_path.toStdString()},
+                                by_file(loaded->file_path));
             if (is_start) document_.mark_unchanged();
             if (then) then();
             if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));
@@ -166,8 +168,12 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
             text += QLatin1Char(' ') + result.advice;
         const QString details =
             result.details.isEmpty() ? result.note : result.details + QLatin1Char('\n') + result.note;
-        return [this, state = std::move(state), name = result.name, details, text] {
-            document_.apply(name, state, details);
+        Action action =
+            result.action
+                ? std::move(*result.action)
+                : Action(place_action(start.mesh->topology(), start.mesh->coordinates(), state.mesh->coordinates()));
+        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action)] {
+            document_.apply(name, state, action, details);
             if (!text.isEmpty()) emit note(text);
         };
     };
@@ -181,6 +187,7 @@ bool MeshJobs::deform() {
     return run_step(tr("Deforming the boundary"), true, [loaded](const CurvedMesh& mesh, const TaskContext&) {
         Step step;
         step.coordinates = apply_deformation(mesh, *loaded.deformation);
+        step.action = DeformAction{loaded.file_path.toStdString()};
         step.name = tr("Deform boundary");
         step.details = by_file(loaded.file_path);
         step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
@@ -223,6 +230,7 @@ bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOpt
                 step.note = describe_warp(result.report);
                 step.coordinates = std::move(result.coordinates);
             }
+            step.action = WarpAction{loaded.file_path.toStdString(), options, increments};
             step.name = warp_name(options, increments, fraction);
             step.advice =
                 tr("Elements have tangled: undo and try automatic steps, other weights or another distance power, or "
@@ -249,7 +257,8 @@ bool MeshJobs::flip() {
         MeshState state = make_state(flip_orientation(*start.mesh), context);
         state.applied_deformations = start.applied_deformations;
         return [this, state] {
-            document_.apply(tr("Flip numbering"), state, tr("All elements are numbered the other way round."));
+            document_.apply(tr("Flip numbering"), state, FlipAction{},
+                            tr("All elements are numbered the other way round."));
         };
     });
 }

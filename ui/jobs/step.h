@@ -1,8 +1,10 @@
 #pragma once
 
+#include <optional>
+
 #include <QString>
 
-#include "core/mesh/curved_mesh.h"
+#include "core/session/action.h"
 
 namespace curvewright {
 
@@ -12,6 +14,8 @@ struct Step {
     QString name;
     QString details;  ///< with what it was made; with the note, what the history tells about it
     QString note;
+    /// What was done, for the session; none: it would not come out the same again, so the moved nodes are recorded.
+    std::optional<Action> action;
     QString advice;  ///< what to do next if elements are tangled in the new state
 };
 

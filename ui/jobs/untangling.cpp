@@ -77,6 +77,8 @@ Step run(const CurvedMesh& mesh, GuaranteedOptions options, const TaskContext& c
                       ? tr("Let the boundary slide, move it less, or refine the mesh there.")
                       : tr("Move the boundary less, or refine the mesh there.");
     step.coordinates = std::move(result.coordinates);
+    // One that was stopped does not come out the same again.
+    if (result.reason != StopReason::cancelled) step.action = UntangleAction{options};
     return step;
 }
 
@@ -92,6 +94,7 @@ Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, const TaskCo
                            "guaranteed method.")
                       : tr("Elements are still tangled: undo, and try a smaller or larger weight β.");
     step.coordinates = std::move(result.coordinates);
+    step.action = UntangleAction{options};
     return step;
 }
 
@@ -106,6 +109,7 @@ Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, const Task
         tr("Elements are still tangled: where tangling is deep, the sum of the angles is flat. Undo, and try "
            "the guaranteed method.");
     step.coordinates = std::move(result.coordinates);
+    step.action = UntangleAction{options};
     return step;
 }
 

@@ -24,7 +24,7 @@ const Command command_list[] = {
     {CommandId::tool_look, CommandMenu::edit, "tool_look", TEXT("&Look around"), TEXT("The mouse moves the view and asks about elements"), "look", "V", true, true, 3},
     {CommandId::tool_select, CommandMenu::edit, "tool_select", TEXT("&Select"), TEXT("Select nodes and elements by click, box or lasso"), "select", "S", true, false, 3},
     {CommandId::tool_drag, CommandMenu::edit, "tool_drag", TEXT("&Drag the boundary"), TEXT("Take hold of the boundary; the mesh follows"), "drag", "D", true, false, 3},
-    {CommandId::tool_transform, CommandMenu::edit, "tool_transform", TEXT("&Move, turn and scale"), TEXT("Handles on the selection; the mesh follows"), "transform", "T", true, false, 3},
+    {CommandId::tool_transform, CommandMenu::edit, "tool_transform", TEXT("&Move, rotate and scale"), TEXT("Handles on the selection; the mesh follows"), "transform", "T", true, false, 3},
     {CommandId::tool_pin, CommandMenu::edit, "tool_pin", TEXT("&Pin nodes"), TEXT("Pinned nodes stay, whatever is dragged"), "pin", "P", true, false, 3},
     {CommandId::soft, CommandMenu::edit, "soft", TEXT("Take &neighbours along"), TEXT("Boundary nodes near those that are dragged follow (proportional editing)"), "soft", "O", true, true, 3},
     {CommandId::select_all, CommandMenu::select, "select_all", TEXT("&All elements"), TEXT("Select all elements"), "", "Ctrl+A"},

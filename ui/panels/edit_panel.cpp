@@ -48,7 +48,7 @@ EditPanel::EditPanel(EditState& edit, LiveDrag& drag, QWidget* parent) : QWidget
 void EditPanel::make_numbers() {
     motion_ = make_choice("motion", tr("What becomes of the selected nodes; the interior follows."),
                           {{tr("Move by"), 0, tr("along a vector.")},
-                           {tr("Turn by"), 1, tr("about the middle of the selection.")},
+                           {tr("Rotate by"), 1, tr("about the middle of the selection.")},
                            {tr("Scale by"), 2, tr("about the middle of the selection.")}});
     numbers_row_ = new QWidget;
     auto* row = new QHBoxLayout(numbers_row_);
@@ -120,7 +120,7 @@ void EditPanel::apply_numbers() {
         case 1:
             motion = AffineMotion::rotation(Eigen::Vector3d::Unit(is_solid ? axis_->currentData().toInt() : 2),
                                             angle_->value() * std::numbers::pi / 180.0);
-            request.name = tr("Turn %1 by %2°").arg(count).arg(angle_->value());
+            request.name = tr("Rotate %1 by %2°").arg(count).arg(angle_->value());
             break;
         default:
             if (!is_solid) numbers[2] = 1.0;

@@ -351,7 +351,7 @@ QString TransformTool::hint() const {
             case HandleKind::arrow:
                 return tr("moved by %1 along %2").arg(format_number(value_), axis) + rest;
             case HandleKind::ring:
-                return tr("turned by %1° about %2").arg(format_number(value_), axis) + rest;
+                return tr("rotated by %1° about %2").arg(format_number(value_), axis) + rest;
             case HandleKind::box:
                 return tr("scaled by %1 along %2").arg(format_number(value_), axis) + rest;
             case HandleKind::center:
@@ -359,13 +359,13 @@ QString TransformTool::hint() const {
         }
     }
     if (context_.edit.nodes().empty())
-        return tr("click the boundary: select what is to be moved, turned or scaled (Shift: more)");
-    if (!hovered_) return tr("arrows: move · ring: turn · dots at the ends: scale along an axis · middle: scale");
+        return tr("click the boundary: select what is to be moved, rotated or scaled (Shift: more)");
+    if (!hovered_) return tr("arrows: move · ring: rotate · dots at the ends: scale along an axis · middle: scale");
     switch (hovered_->kind) {
         case HandleKind::arrow:
             return tr("drag: move the selection along %1").arg(QStringLiteral("xyz").mid(hovered_->axis, 1));
         case HandleKind::ring:
-            return tr("drag: turn the selection about %1").arg(QStringLiteral("xyz").mid(hovered_->axis, 1));
+            return tr("drag: rotate the selection about %1").arg(QStringLiteral("xyz").mid(hovered_->axis, 1));
         case HandleKind::box:
             return tr("drag: scale the selection along %1").arg(QStringLiteral("xyz").mid(hovered_->axis, 1));
         case HandleKind::center:

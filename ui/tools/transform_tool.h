@@ -6,8 +6,8 @@
 
 namespace curvewright {
 
-/// Handles on the selection: arrows move it along an axis, rings turn it, boxes scale it, the one in the middle scales
-/// all ways. The interior follows. Without a selection a click on the boundary selects what would be dragged.
+/// Handles on the selection: arrows move it along an axis, rings rotate it, boxes scale it, the one in the middle
+/// scales all ways. The interior follows. Without a selection a click on the boundary selects what would be dragged.
 class TransformTool : public Tool {
     Q_OBJECT
 

@@ -1,0 +1,80 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/deform/deformation.h"
+#include "core/untangle/guaranteed.h"
+#include "core/untangle/signed_angles.h"
+#include "core/untangle/unsigned_angles.h"
+#include "core/warp/incremental.h"
+#include "core/warp/response.h"
+
+namespace curvewright {
+
+/// In the order of UntangleOptions' alternatives.
+enum class UntangleMethod { guaranteed, signed_angles, unsigned_angles };
+using UntangleOptions = std::variant<GuaranteedOptions, SignedAngleOptions, UnsignedAngleOptions>;
+
+inline UntangleMethod method_of(const UntangleOptions& options) {
+    return static_cast<UntangleMethod>(options.index());
+}
+
+// What is done to a mesh, as data that can be written, read and done again. Files are named as they were opened.
+
+/// A mesh file is opened; the history begins.
+struct OpenAction {
+    std::string mesh;
+};
+/// The boundary moves as a deformation file says; the interior stays.
+struct DeformAction {
+    std::string deformation;
+};
+/// The boundary moves as a deformation file says; the interior follows.
+struct WarpAction {
+    std::string deformation;
+    WarpOptions options;
+    std::optional<IncrementOptions> increments;
+};
+struct UntangleAction {
+    UntangleOptions options;
+};
+/// All elements are numbered the other way round.
+struct FlipAction {};
+/// Nodes follow a hand, the interior follows them, by the weights of the mesh as it was opened (after FlipAction: as it
+/// is).
+struct DragAction {
+    std::vector<NodeTag> nodes;
+    std::vector<double> weights;  ///< one per node, or empty for all 1
+    std::vector<NodeTag> pinned;  ///< interior nodes that stay
+    ResponseKind kind = ResponseKind::translation;
+    Vector3 origin{};  ///< that the motion is about
+    AffineMotion motion;
+    WarpOptions options;
+};
+/// Nodes are put somewhere: what cannot be computed again, such as an untangling that was stopped.
+struct PlaceAction {
+    struct Row {
+        NodeTag node;
+        Vector3 position{};
+    };
+    std::vector<Row> rows;
+};
+/// Undo, redo or a jump: so many steps of the history are done now.
+struct HistoryAction {
+    int step = 0;
+};
+
+using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, FlipAction, DragAction, PlaceAction,
+                            HistoryAction>;
+
+/// The options by which the interior follows a drag: interior nodes that are dragged or pinned are prescribed.
+WarpOptions drag_options(WarpOptions options, const MeshTopology& topology, const std::vector<Index>& dragged,
+                         const std::vector<Index>& pinned);
+
+/// The nodes that differ, as an action.
+PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after);
+
+}  // namespace curvewright

@@ -1,0 +1,150 @@
+#include "core/session/replay.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/base/error.h"
+#include "core/edit/drag.h"
+#include "core/io/deformation_file.h"
+#include "core/io/mesh_io.h"
+#include "core/quality/quality.h"
+
+namespace curvewright {
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
+Index find_node(const MeshTopology& topology, NodeTag tag) {
+    const auto node = topology.find_node(tag);
+    if (!node) throw InvalidInput(fmt::format("The mesh has no node {}, which the session names.", tag.value));
+    return *node;
+}
+
+std::vector<Index> find_nodes(const MeshTopology& topology, const std::vector<NodeTag>& tags) {
+    std::vector<Index> nodes;
+    for (const NodeTag tag : tags) nodes.push_back(find_node(topology, tag));
+    return nodes;
+}
+
+Coordinates untangled(const CurvedMesh& mesh, const UntangleOptions& options, const TaskContext& context) {
+    return std::visit(Overloaded{[&](const GuaranteedOptions& its) {
+                                     return untangle_guaranteed(mesh, its, nullptr, context).coordinates;
+                                 },
+                                 [&](const SignedAngleOptions& its) {
+                                     return untangle_signed_angles(mesh, its, nullptr, context).coordinates;
+                                 },
+                                 [&](const UnsignedAngleOptions& its) {
+                                     return untangle_unsigned_angles(mesh, its, nullptr, context).coordinates;
+                                 }},
+                      options);
+}
+
+Coordinates warped(const CurvedMesh& mesh, const WarpAction& action, const Deformation& deformation,
+                   const TaskContext& context) {
+    WarpOptions options = action.options;
+    options.prescribed_nodes = prescribed_interior_nodes(mesh, deformation);
+    if (!action.increments) return warp(mesh, apply_deformation(mesh, deformation), options, context).coordinates;
+    const BoundaryPath path = [&](double fraction) { return apply_deformation(mesh, deformation, fraction); };
+    return warp_in_increments(mesh, path, options, *action.increments, context).coordinates;
+}
+
+Coordinates dragged(const CurvedMesh& mesh, const CurvedMesh& opened, const DragAction& action,
+                    const TaskContext& context) {
+    const MeshTopology& topology = mesh.topology();
+    const CurvedMesh& base = opened.shared_topology() == mesh.shared_topology() ? opened : mesh;
+    const DraggedSet set{find_nodes(topology, action.nodes), action.weights};
+    const auto warper = std::make_shared<const Warper>(
+        base, drag_options(action.options, topology, set.nodes, find_nodes(topology, action.pinned)), context);
+    Drag drag(warper, set, action.kind, Eigen::Vector3d(action.origin[0], action.origin[1], action.origin[2]), mesh,
+              nullptr, context);
+    return drag.move(action.motion);
+}
+
+Coordinates placed(const CurvedMesh& mesh, const PlaceAction& action) {
+    Coordinates x = mesh.coordinates();
+    for (const PlaceAction::Row& row : action.rows)
+        x.row(find_node(mesh.topology(), row.node)) << row.position[0], row.position[1], row.position[2];
+    return x;
+}
+
+}  // namespace
+
+WarpOptions drag_options(WarpOptions options, const MeshTopology& topology, const std::vector<Index>& dragged,
+                         const std::vector<Index>& pinned) {
+    std::vector<Index>& prescribed = options.prescribed_nodes;
+    prescribed.clear();
+    for (const std::vector<Index>* nodes : {&dragged, &pinned})
+        for (const Index node : *nodes)
+            if (topology.is_interior_node(node)) prescribed.push_back(node);
+    std::sort(prescribed.begin(), prescribed.end());
+    prescribed.erase(std::unique(prescribed.begin(), prescribed.end()), prescribed.end());
+    return options;
+}
+
+PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after) {
+    PlaceAction action;
+    for (Index node = 0; node < topology.node_count(); ++node)
+        if (before.row(node) != after.row(node))
+            action.rows.push_back({topology.node_tag(node), {after(node, 0), after(node, 1), after(node, 2)}});
+    return action;
+}
+
+CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opened,
+                   const std::function<Deformation(const std::string&)>& deformation_of, const TaskContext& context) {
+    return std::visit(
+        Overloaded{
+            [&](const DeformAction& its) {
+                return mesh.with_coordinates(apply_deformation(mesh, deformation_of(its.deformation)));
+            },
+            [&](const WarpAction& its) {
+                return mesh.with_coordinates(warped(mesh, its, deformation_of(its.deformation), context));
+            },
+            [&](const UntangleAction& its) { return mesh.with_coordinates(untangled(mesh, its.options, context)); },
+            [&](const FlipAction&) { return flip_orientation(mesh); },
+            [&](const DragAction& its) { return mesh.with_coordinates(dragged(mesh, opened, its, context)); },
+            [&](const PlaceAction& its) { return mesh.with_coordinates(placed(mesh, its)); },
+            [&](const auto&) -> CurvedMesh {
+                throw InvalidInput("Opening a mesh and walking through the history are nothing that a mesh can do.");
+            }},
+        action);
+}
+
+std::filesystem::path Replay::resolve(const std::string& file) const {
+    const std::filesystem::path path(file);
+    return path.is_absolute() ? path : folder_ / path;
+}
+
+void Replay::perform(const Action& action, const TaskContext& context) {
+    if (const auto* open = std::get_if<OpenAction>(&action)) {
+        CurvedMesh mesh = read_mesh(resolve(open->mesh), context).mesh;
+        history_.assign(1, std::move(mesh));
+        position_ = 0;
+        mesh_file_ = open->mesh;
+        return;
+    }
+    if (!has_mesh())
+        throw InvalidInput("The session does something before it opens a mesh; \"open\" was expected first.");
+    if (const auto* jump = std::get_if<HistoryAction>(&action)) {
+        if (jump->step < 0 || static_cast<std::size_t>(jump->step) >= history_.size())
+            throw InvalidInput(
+                fmt::format("The session goes to step {} of a history of {} steps.", jump->step, history_.size() - 1));
+        position_ = static_cast<std::size_t>(jump->step);
+        return;
+    }
+    CurvedMesh result = result_of(action, context);
+    history_.erase(history_.begin() + static_cast<std::ptrdiff_t>(position_) + 1, history_.end());
+    history_.push_back(std::move(result));
+    ++position_;
+}
+
+CurvedMesh Replay::result_of(const Action& action, const TaskContext& context) const {
+    return curvewright::perform(
+        action, mesh(), opened(), [&](const std::string& file) { return read_deformation(resolve(file), context); },
+        context);
+}
+
+}  // namespace curvewright

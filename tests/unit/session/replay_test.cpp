@@ -1,0 +1,124 @@
+#include "core/session/replay.h"
+
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include "core/base/error.h"
+#include "core/base/parallel.h"
+#include "core/edit/drag.h"
+#include "core/io/deformation_file.h"
+#include "core/io/mesh_io.h"
+#include "core/session/session_file.h"
+#include "tests/support/mesh_factory.h"
+
+namespace curvewright {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace curvewright::testing;
+
+class ReplayTest : public ::testing::Test {
+  protected:
+    fs::path folder = fs::temp_directory_path() / ("curvewright_replay_" + std::to_string(::getpid()));
+
+    void SetUp() override {
+        fs::create_directories(folder);
+        write_mesh(folder / "square.msh", square_mesh(4, 3));
+        std::ofstream(folder / "bump.json") << R"json({"operations": [
+            {"group": "bottom", "type": "expression", "y": "y + 0.2 * sin(pi * x)"}]})json";
+    }
+    void TearDown() override {
+        set_thread_count(0);
+        fs::remove_all(folder);
+    }
+    DragAction drag_of(const MeshTopology& topology, const char* group) {
+        DragAction drag;
+        const std::vector<Index> nodes = topology.find_group_nodes(group).value();
+        for (const Index node : nodes) drag.nodes.push_back(topology.node_tag(node));
+        drag.motion.shift = {0.05, 0.02, 0.0};
+        return drag;
+    }
+};
+
+TEST_F(ReplayTest, DoesWhatWasDone) {
+    Replay replay(folder);
+    EXPECT_FALSE(replay.has_mesh());
+    replay.perform(OpenAction{"square.msh"});
+    const CurvedMesh opened = replay.mesh();
+    const MeshTopology& topology = opened.topology();
+
+    replay.perform(DeformAction{"bump.json"});
+    const Deformation bump = read_deformation(folder / "bump.json");
+    EXPECT_EQ(replay.mesh().coordinates(), apply_deformation(opened, bump));
+    const CurvedMesh deformed = replay.mesh();
+    replay.perform(UntangleAction{GuaranteedOptions{}});
+    EXPECT_EQ(replay.mesh().coordinates(), untangle_guaranteed(deformed).coordinates);
+
+    // Back to the beginning, and another way from there: what was ahead is gone.
+    replay.perform(HistoryAction{0});
+    EXPECT_EQ(replay.mesh().coordinates(), opened.coordinates());
+    replay.perform(HistoryAction{2});
+    replay.perform(HistoryAction{0});
+    replay.perform(WarpAction{"bump.json", {}, IncrementOptions{}});
+    EXPECT_THROW(replay.perform(HistoryAction{2}), InvalidInput);
+    const CurvedMesh warped = replay.mesh();
+
+    const DragAction drag = drag_of(topology, "right");
+    replay.perform(drag);
+    Drag by_hand(std::make_shared<const Warper>(opened), {topology.find_group_nodes("right").value(), {}},
+                 ResponseKind::translation, Eigen::Vector3d::Zero(), warped, nullptr);
+    EXPECT_EQ(replay.mesh().coordinates(), by_hand.move(drag.motion));
+
+    replay.perform(place_action(topology, replay.mesh().coordinates(), opened.coordinates()));
+    EXPECT_EQ(replay.mesh().coordinates(), opened.coordinates());
+    replay.perform(FlipAction{});
+    EXPECT_NE(replay.mesh().shared_topology(), opened.shared_topology());
+    // After renumbering the weights are those of the mesh as it is; the same here, as nothing has moved.
+    replay.perform(drag);
+    EXPECT_EQ(replay.opened().coordinates(), opened.coordinates());
+}
+
+TEST_F(ReplayTest, TheSameForEveryNumberOfThreads) {
+    const MeshTopology topology = square_mesh(4, 3).topology();
+    DragAction drag = drag_of(topology, "top");
+    drag.kind = ResponseKind::affine;
+    drag.origin = {0.5, 1.0, 0.0};
+    drag.motion.linear = AffineMotion::rotation(Eigen::Vector3d::UnitZ(), 0.2).linear;
+    const std::vector<Action> actions{OpenAction{"square.msh"}, WarpAction{"bump.json", {}, {}}, drag,
+                                      UntangleAction{GuaranteedOptions{}}};
+    std::vector<Coordinates> results;
+    for (const int threads : {1, 2, 3}) {
+        set_thread_count(threads);
+        Replay replay(folder);
+        // Through the text, as from a file.
+        for (const Action& action : actions) replay.perform(parse_action(to_json_line(action)));
+        results.push_back(replay.mesh().coordinates());
+    }
+    EXPECT_EQ(results[0], results[1]);
+    EXPECT_EQ(results[0], results[2]);
+}
+
+TEST_F(ReplayTest, WhatCannotBeDoneLeavesTheMesh) {
+    Replay replay(folder);
+    EXPECT_THROW(replay.perform(FlipAction{}), InvalidInput);
+    EXPECT_THROW(replay.perform(OpenAction{"nothing.msh"}), InvalidInput);
+    EXPECT_FALSE(replay.has_mesh());
+    replay.perform(OpenAction{(folder / "square.msh").string()});
+    const Coordinates opened = replay.mesh().coordinates();
+    DragAction drag;
+    drag.nodes = {{999999}};
+    EXPECT_THROW(replay.perform(drag), InvalidInput);
+    EXPECT_THROW(replay.perform(DeformAction{"nothing.json"}), InvalidInput);
+    EXPECT_THROW(replay.perform(PlaceAction{{{{999999}, {}}}}), InvalidInput);
+    EXPECT_THROW(replay.perform(HistoryAction{1}), InvalidInput);
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW(replay.perform(WarpAction{"bump.json", {}, {}}, {stop.get_token(), {}}), Cancelled);
+    EXPECT_EQ(replay.mesh().coordinates(), opened);
+}
+
+}  // namespace
+}  // namespace curvewright
