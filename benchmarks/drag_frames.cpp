@@ -74,7 +74,6 @@ void measure(Theme& theme, const QString& path) {
     settings.direction = DragDirection::view_plane;
     window.edit().set_settings(settings);
     window.action(CommandId::tool_drag)->trigger();
-    if (getenv("NOEDGES")) window.action(CommandId::edges)->setChecked(false);
     // The shortest component of the boundary that a node nearest to the eye belongs to: an inner circle, if there is
     // one.
     const BoundaryParts& parts = window.edit().boundary();
@@ -163,6 +162,7 @@ int main(int argc, char** argv) {
     const QTemporaryDir settings;
     QSettings::setDefaultFormat(QSettings::IniFormat);
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
+    qputenv("XDG_DATA_HOME", settings.path().toLocal8Bit());
     QApplication application(argc, argv);
     if (const std::string problem = probe_opengl(); !problem.empty()) {
         fmt::print(stderr, "The drag needs OpenGL: {}\n", problem);

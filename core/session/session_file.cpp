@@ -326,6 +326,12 @@ std::string quoted(const std::string& word) {
     return result + "'";
 }
 
+std::string replay_line(const std::vector<Action>& actions, const std::string& output) {
+    std::string line = fmt::format("curvewright-cli replay - -o {} <<'END'\n", quoted(output));
+    for (const Action& action : actions) line += to_json_line(action) + '\n';
+    return line + "END\n";
+}
+
 }  // namespace
 
 std::string to_json_line(const Action& action) {
@@ -372,10 +378,6 @@ void write_session(const std::filesystem::path& file, const std::vector<Action>&
 std::string command_line(const Action& action, const std::string& input, const std::string& output) {
     const Json json = to_json(action);
     const auto number = [](double value) { return Json(value).dump(); };
-    const auto with_replay = [&] {
-        return fmt::format("curvewright-cli replay - -o {} <<'END'\n{}\n{}\nEND\n", quoted(output),
-                           to_json_line(OpenAction{input}), to_json_line(action));
-    };
     std::string line;
     const auto begin = [&](const char* command) {
         line = fmt::format("curvewright-cli {} {} -o {}", command, quoted(input), quoted(output));
@@ -431,7 +433,14 @@ std::string command_line(const Action& action, const std::string& input, const s
     }
     if (std::holds_alternative<OpenAction>(action))
         return fmt::format("curvewright-cli convert {} {}", quoted(input), quoted(output));
-    return with_replay();
+    return replay_line({OpenAction{input}, action}, output);
+}
+
+std::string command_line(const std::vector<Action>& actions, const std::string& output) {
+    const auto* open = actions.empty() ? nullptr : std::get_if<OpenAction>(&actions.front());
+    if (open && actions.size() == 1) return command_line(actions.front(), open->mesh, output);
+    if (open && actions.size() == 2) return command_line(actions.back(), open->mesh, output);
+    return replay_line(actions, output);
 }
 
 }  // namespace curvewright

@@ -29,4 +29,8 @@ void write_session(const std::filesystem::path& file, const std::vector<Action>&
 /// result.
 std::string command_line(const Action& action, const std::string& input, const std::string& output);
 
+/// The same for several actions, the first of which opens the mesh: a command of their own for one step after it, else
+/// a replay.
+std::string command_line(const std::vector<Action>& actions, const std::string& output);
+
 }  // namespace curvewright

@@ -1,7 +1,9 @@
 #include <cstdio>
 
 #include <QApplication>
+#include <QDir>
 #include <QSettings>
+#include <QStandardPaths>
 #include <QTemporaryDir>
 #include <QTest>
 
@@ -31,6 +33,8 @@ int main(int argc, char** argv) {
     QSettings::setPath(QSettings::IniFormat, QSettings::UserScope, settings.path());
     QCoreApplication::setOrganizationName(QStringLiteral("curvewright-test"));
     QCoreApplication::setApplicationName(QStringLiteral("curvewright-test"));
+    // Of its own: other tests run beside this one.
+    qputenv("XDG_DATA_HOME", settings.path().toLocal8Bit());
     QApplication application(argc, argv);
     if (const std::string problem = probe_opengl(); !problem.empty()) {
         std::fprintf(stderr, "The tests of the window need OpenGL: %s\n", problem.c_str());

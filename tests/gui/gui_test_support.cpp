@@ -41,6 +41,10 @@ WindowUnderTest::WindowUnderTest() {
             if (!filter_answer.isEmpty() && filter.contains(filter_answer)) selected = filter;
         return file_answer;
     };
+    dialogs.ask_recover = [this](QWidget*, const QString& message) {
+        recover_questions << message;
+        return recover_answer;
+    };
     dialogs.ask_unsaved = [this](QWidget*, const QString&) {
         ++unsaved_questions;
         return unsaved_answer;

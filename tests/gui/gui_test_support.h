@@ -53,7 +53,10 @@ struct WindowUnderTest {
     QString file_answer, filter_answer;                    ///< what the file dialogs answer
     UnsavedAnswer unsaved_answer = UnsavedAnswer::cancel;  ///< what the question about unsaved changes answers
     int unsaved_questions = 0;                             ///< how often it was asked
-    QStringList errors;                                    ///< messages shown
+    QStringList recover_questions;                         ///< about work that a crash left
+    /// What they get; asked as soon as a window is there, so for all windows.
+    static inline UnsavedAnswer recover_answer = UnsavedAnswer::cancel;
+    QStringList errors;  ///< messages shown
     std::unique_ptr<MainWindow> window;
 };
 

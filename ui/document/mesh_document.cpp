@@ -83,9 +83,12 @@ void MeshDocument::record(Action action) {
     emit recorded(session_.back());
 }
 
-const Action* MeshDocument::last_action() const {
-    const int index = history_.index();
-    return index == 0 ? nullptr : &static_cast<const StateCommand*>(history_.command(index - 1))->action();
+std::vector<Action> MeshDocument::way_here() const {
+    if (session_.empty()) return {};
+    std::vector<Action> way{session_.front()};
+    for (int step = 0; step < history_.index(); ++step)
+        way.push_back(static_cast<const StateCommand*>(history_.command(step))->action());
+    return way;
 }
 
 QString MeshDocument::step_details(int step) const {

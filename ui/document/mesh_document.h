@@ -81,8 +81,8 @@ class MeshDocument : public QObject {
     void apply(const QString& name, MeshState state, Action action, const QString& details = {});
     /// Everything that was done since the mesh was opened, undo and redo included; empty without a mesh.
     const std::vector<Action>& session() const { return session_; }
-    /// The action that led to the present state; none for the mesh as opened.
-    const Action* last_action() const;
+    /// What leads from the file to the present state, without the ways that were undone; empty without a mesh.
+    std::vector<Action> way_here() const;
     /// What is to be known about a step of the history (0 = the first after opening); "" = nothing.
     QString step_details(int step) const;
     void set_deformation(LoadedDeformation deformation);

@@ -126,13 +126,23 @@ bool MeshJobs::open(OpenRequest request) {
                 deformed->applied_deformations << loaded->file_path;
             }
         }
-        return [this, opened = std::move(opened), loaded, deformed, is_start = request.is_starting_point,
+        std::optional<std::pair<MeshState, Step>> first;
+        if (request.first_step) {
+            Step step = request.first_step(*opened.state.mesh);
+            MeshState state = make_state(opened.state.mesh->with_coordinates(step.coordinates), context, &opened.state);
+            if (!step.action)
+                step.action =
+                    place_action(opened.state.mesh->topology(), opened.state.mesh->coordinates(), step.coordinates);
+            first.emplace(std::move(state), std::move(step));
+        }
+        return [this, opened = std::move(opened), loaded, deformed, first, is_start = request.is_starting_point,
                 then = request.then] {
             document_.open(opened);
             if (loaded) document_.set_deformation(*loaded);
             if (deformed)
                 document_.apply(tr("Deform boundary"), *deformed, DeformAction{loaded->file_path.toStdString()},
                                 by_file(loaded->file_path));
+            if (first) document_.apply(first->second.name, first->first, *first->second.action, first->second.details);
             if (is_start) document_.mark_unchanged();
             if (then) then();
             if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));

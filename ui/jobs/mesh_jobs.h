@@ -22,6 +22,8 @@ struct OpenRequest {
     bool apply_deformation = false;
     /// The mesh with the deformation applied is where the user starts, and not yet a change to be saved.
     bool is_starting_point = false;
+    /// Makes the first step of the history of the mesh that was read; null = none. Called on the worker's thread.
+    std::function<Step(const CurvedMesh& mesh)> first_step;
     /// Called on the window's thread when the mesh is there, before finished().
     std::function<void()> then;
 };

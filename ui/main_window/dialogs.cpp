@@ -8,6 +8,7 @@
 #include <QKeySequence>
 #include <QLabel>
 #include <QMessageBox>
+#include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
 
@@ -19,6 +20,17 @@ namespace {
 
 QString tr(const char* text) {
     return QCoreApplication::translate("Dialogs", text);
+}
+
+UnsavedAnswer ask_recover_with_box(QWidget* parent, const QString& message) {
+    QMessageBox box(QMessageBox::Question, tr("Unsaved work"), message, QMessageBox::NoButton, parent);
+    const QAbstractButton* recover = box.addButton(tr("Recover"), QMessageBox::AcceptRole);
+    const QAbstractButton* discard = box.addButton(tr("Throw away"), QMessageBox::DestructiveRole);
+    box.addButton(tr("Later"), QMessageBox::RejectRole);
+    box.exec();
+    return box.clickedButton() == recover   ? UnsavedAnswer::save
+           : box.clickedButton() == discard ? UnsavedAnswer::discard
+                                            : UnsavedAnswer::cancel;
 }
 
 UnsavedAnswer ask_with_box(QWidget* parent, const QString& file_name) {
@@ -58,6 +70,7 @@ Dialogs Dialogs::standard() {
         return QFileDialog::getSaveFileName(parent, title, suggestion, filters, &selected);
     };
     dialogs.ask_unsaved = ask_with_box;
+    dialogs.ask_recover = ask_recover_with_box;
     dialogs.show_error = show_error_box;
     return dialogs;
 }

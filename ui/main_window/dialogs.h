@@ -19,6 +19,8 @@ struct Dialogs {
     std::function<QString(QWidget* parent, const QString& title, const QString& suggestion, const QString& filters,
                           QString& selected)>
         save_file;
+    /// Whether work that a crash has left is to be recovered, thrown away, or kept for another time (cancel).
+    std::function<UnsavedAnswer(QWidget* parent, const QString& message)> ask_recover;
     std::function<UnsavedAnswer(QWidget* parent, const QString& file_name)> ask_unsaved;
     /// Tells and returns at once; the message stays until it is closed.
     std::function<void(QWidget* parent, const QString& title, const QString& message)> show_error;

@@ -76,6 +76,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_document();
     connect_panels();
     connect_editing();
+    connect_session();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
         if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
@@ -242,7 +243,8 @@ void MainWindow::update_commands() {
     const bool is_idle = !jobs_.runner().is_running() && !drag_.is_active(), has_mesh = document_.has_mesh();
     for (const CommandId id : {CommandId::open, CommandId::load_deformation}) actions_[id]->setEnabled(is_idle);
     actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
-    for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::close_mesh})
+    for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::save_session,
+                               CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
     for (const CommandId id :
          {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend})

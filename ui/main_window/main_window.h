@@ -7,6 +7,7 @@
 #include <QMainWindow>
 
 #include "ui/document/edit_state.h"
+#include "ui/document/journal.h"
 #include "ui/document/mesh_document.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
@@ -116,6 +117,11 @@ class MainWindow : public QMainWindow {
     void show_frame(const Coordinates& positions, const QualityReport* quality);
     void show_verdict(const QualitySummary& summary);
 
+    // main_window_session.cpp
+    void connect_session();
+    void offer_lost_work();
+    void recover(const LostWork& lost);
+
     // main_window_files.cpp
     void ask_open();
     void ask_load_deformation();
@@ -136,6 +142,7 @@ class MainWindow : public QMainWindow {
     LiveDrag drag_;
     RecentFiles recent_;
     SampleCatalog samples_;
+    std::unique_ptr<Journal> journal_;
     CommandActions actions_;
 
     QStackedWidget* center_ = nullptr;

@@ -70,6 +70,8 @@ QString first_file(const QMimeData* data) {
 }  // namespace
 
 bool MainWindow::is_busy() {
+    // A hand that is still on the mesh lets go of it.
+    drag_.cancel();
     if (!jobs_.runner().is_running()) return false;
     statusBar()->showMessage(tr("%1 is still running: stop it first (Esc).").arg(jobs_.runner().title()), 6000);
     return true;
