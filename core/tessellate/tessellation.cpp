@@ -153,6 +153,15 @@ struct CornerKey {
     }
 };
 
+/// All faces (3D) of the visible elements.
+std::vector<Facet> all_facets(const MeshTopology& topology, const std::vector<bool>& visible) {
+    std::vector<Facet> facets;
+    for (Index element = 0; element < topology.element_count(); ++element)
+        for (std::size_t local = 0; local < reference_element(topology.element_type(element)).facets.size(); ++local)
+            if (visible.empty() || visible[element]) facets.push_back({element, static_cast<int>(local)});
+    return facets;
+}
+
 /// Faces (3D) that exactly one visible element has, in the order of the elements.
 std::vector<Facet> find_skin(const MeshTopology& topology, const std::vector<bool>& visible) {
     if (visible.empty()) return topology.boundary_facets();
@@ -197,6 +206,12 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
     if (!visible.empty() && visible.size() != static_cast<std::size_t>(topology.element_count()))
         throw InvalidInput(
             fmt::format("The mesh has {} elements but {} visibility flags.", topology.element_count(), visible.size()));
+    if (!(options_.element_size > 0.0 && options_.element_size <= 1.0))
+        throw InvalidInput(
+            fmt::format("Elements are to be drawn at {} times their size; more than 0 and at most 1 was "
+                        "expected.",
+                        options_.element_size));
+    if (is_shrunk()) topology_ = mesh.shared_topology();
     options_.min_subdivisions = std::max(1, options_.min_subdivisions);
     options_.max_subdivisions = std::max(options_.min_subdivisions, options_.max_subdivisions);
     const auto box = bounding_box(mesh);
@@ -209,7 +224,7 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
         patch_nodes_.insert(patch_nodes_.end(), nodes.begin(), nodes.end());
     };
     if (is_solid_) {
-        for (const Facet& facet : find_skin(topology, visible))
+        for (const Facet& facet : is_shrunk() ? all_facets(topology, visible) : find_skin(topology, visible))
             add_patch(faces_, facet.element,
                       reference_element(topology.element_type(facet.element)).facets[facet.local].type,
                       topology.facet_nodes(facet));
@@ -246,7 +261,10 @@ void Tessellation::find_edges() {
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
-        while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
+        // Shrunk elements have all of their edges to themselves.
+        const auto owner = [this, &keys](std::size_t key) { return faces_[keys[key].element].element; };
+        while (end < keys.size() && keys[end].corners == keys[i].corners && (!is_shrunk() || owner(end) == owner(i)))
+            ++end;
         const Patch& face = faces_[keys[i].element];
         const SubElement& side = reference_element(face.type).edges[keys[i].local];
         edges_.push_back({face.element, side.type, 1, static_cast<Index>(patch_nodes_.size()), 0});
@@ -254,7 +272,7 @@ void Tessellation::find_edges() {
             const Index global = patch_nodes_[face.first_node + node];
             patch_nodes_.push_back(global);
         }
-        line_is_boundary_.push_back(end == i + 1 ? 1 : 0);
+        line_is_boundary_.push_back(end == i + 1 && !is_shrunk() ? 1 : 0);
         i = end;
     }
 }
@@ -267,6 +285,17 @@ Eigen::MatrixXd Tessellation::gather(const std::vector<Patch>& patches, std::siz
         for (int i = 0; i < nodes; ++i)
             x.block<1, 3>(i, 3 * static_cast<Eigen::Index>(k)) =
                 coordinates.row(patch_nodes_[patches[first + k].first_node + i]) - origin_;
+    if (!is_shrunk()) return x;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Index element = patches[first + k].element;
+        const auto corners = topology_->element_nodes(element).first(
+            static_cast<std::size_t>(corner_count(topology_->element_type(element).shape)));
+        Eigen::RowVector3d center = Eigen::RowVector3d::Zero();
+        for (const Index corner : corners) center += coordinates.row(corner) / static_cast<double>(corners.size());
+        center -= origin_;
+        auto its = x.middleCols<3>(3 * static_cast<Eigen::Index>(k));
+        its = (options_.element_size * (its.rowwise() - center)).rowwise() + center;
+    }
     return x;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/mesh/curved_mesh.h"
@@ -12,6 +13,9 @@ struct TessellationOptions {
     double chord_tolerance = 2e-4;
     /// Bounds of the number of chords per side of a curved element; straight elements always get 1.
     int min_subdivisions = 4, max_subdivisions = 24;
+    /// Size of the elements about the mean of their corners: below 1 there are gaps between them, and in 3D all of
+    /// their faces are drawn.
+    double element_size = 1.0;
 };
 
 /// Straight pieces that draw a curved mesh: its surface as triangles and its element edges as polylines. In 2D the
@@ -68,6 +72,7 @@ class Tessellation {
                             const std::vector<Patch>& patches) const;
     void lay_out();
     /// nodes × 3 count: positions of the nodes of `count` patches of one type, relative to the origin, side by side.
+    bool is_shrunk() const { return options_.element_size < 1.0; }
     Eigen::MatrixXd gather(const std::vector<Patch>& patches, std::size_t first, std::size_t count,
                            const Coordinates& coordinates) const;
     void move_patches(const std::vector<Patch>& patches, const Coordinates& coordinates, std::vector<float>& points,
@@ -75,6 +80,7 @@ class Tessellation {
 
     TessellationOptions options_;
     Index node_count_ = 0;
+    std::shared_ptr<const MeshTopology> topology_;  ///< of shrunk elements only
     bool is_solid_ = false;
     Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
     double diagonal_ = 0.0;  ///< of the bounding box at construction

@@ -123,7 +123,8 @@ void MainWindow::connect_commands() {
     on(CommandId::about, [this] { show_about(this); });
     for (const auto& entry : look_commands)
         on(entry.command, [this, direction = entry.direction] { view_->look(direction); });
-    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip})
+    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip,
+                               CommandId::shrink, CommandId::worst_only})
         connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
     for (const auto& entry : theme_choices)
         connect(actions_[entry.command], &QAction::toggled, this, [this, entry](bool is_on) {
@@ -211,6 +212,8 @@ void MainWindow::show_state() {
     const MeshState& state = document_.state();
     view_->show_state(state);
     view_->set_highlighted_elements(edit_.elements());
+    if (actions_[CommandId::worst_only]->isChecked()) update_options();
+    show_before();
     verdict_->clear();
     banner_->hide();
     if (state.mesh && !state.quality) {
@@ -246,13 +249,14 @@ void MainWindow::update_commands() {
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::save_session,
                                CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
-    for (const CommandId id :
-         {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend})
+    for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
+                               CommandId::legend, CommandId::shrink, CommandId::compare})
         actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
     for (const auto& entry : look_commands)
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
     actions_[CommandId::clip]->setEnabled(is_3d);
+    actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
     actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());
@@ -292,6 +296,11 @@ void MainWindow::update_options() {
     options.background = to_color(theme_.color(QStringLiteral("view")));
     options.foreground = to_color(theme_.color(QStringLiteral("text")));
     options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));
+    options.element_size = actions_[CommandId::shrink]->isChecked() ? 0.8 : 1.0;
+    options.only_elements.reset();
+    const auto& quality = document_.state().quality;
+    if (quality && actions_[CommandId::worst_only]->isChecked())
+        options.only_elements = quality->worst(WorstTable::max_rows);
     options.clip.reset();
     if (is_clipped) {
         const ClipSetting setting = clip_bar_->setting();
@@ -302,6 +311,9 @@ void MainWindow::update_options() {
         options.clip = plane;
     }
     view_->set_options(options);
+    SceneOptions before_options = options;
+    before_options.show_legend = false;
+    before_view_->set_options(before_options);
     clip_bar_->setVisible(is_clipped);
     place_clip_bar();
 }

@@ -116,6 +116,8 @@ class MainWindow : public QMainWindow {
     void update_hint();
     void show_frame(const Coordinates& positions, const QualityReport* quality);
     void show_verdict(const QualitySummary& summary);
+    /// The view of the state before the last step, if it is wanted.
+    void show_before();
 
     // main_window_session.cpp
     void connect_session();
@@ -150,6 +152,7 @@ class MainWindow : public QMainWindow {
     QWidget* view_page_ = nullptr;
     Banner* banner_ = nullptr;
     MeshView* view_ = nullptr;
+    MeshView* before_view_ = nullptr;  ///< beside view_, if the user wants to compare
     ClipBar* clip_bar_ = nullptr;
     PointerTag* pointer_tag_ = nullptr;
     std::map<CommandId, Tool*> tools_;

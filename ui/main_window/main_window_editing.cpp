@@ -2,6 +2,7 @@
 #include <QActionGroup>
 #include <QLabel>
 #include <QSettings>
+#include <QSplitter>
 #include <QStatusBar>
 
 #include "core/base/stopwatch.h"
@@ -83,6 +84,17 @@ void MainWindow::connect_editing() {
     actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
     connect(warp_panel_, &OperationPanel::refreshed, this, [this] { drag_.set_weights(warp_panel_->options()); });
     drag_.set_weights(warp_panel_->options());
+    connect(actions_[CommandId::compare], &QAction::toggled, this, [this](bool is_on) {
+        show_before();
+        // Two halves, for the first time and whenever the window has changed in between.
+        if (is_on) static_cast<QSplitter*>(view_->parentWidget())->setSizes({1000, 1000});
+    });
+    connect(view_, &MeshView::camera_moved, this, [this] {
+        if (before_view_->isVisible()) before_view_->follow_camera(*view_);
+    });
+    connect(before_view_, &MeshView::camera_moved, this, [this] {
+        if (before_view_->isVisible()) view_->follow_camera(*before_view_);
+    });
     connect_selection();
     update_tool();
 }
@@ -134,6 +146,18 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
                                : summary.undecided > 0 ? "warning"
                                                        : "good");
     quality_panel_->show_live(*quality);
+}
+
+void MainWindow::show_before() {
+    const bool is_wanted = actions_[CommandId::compare]->isChecked() && document_.has_mesh();
+    before_view_->setVisible(is_wanted);
+    for (QLabel* name : view_page_->findChildren<QLabel*>(QStringLiteral("view_name"))) name->setVisible(is_wanted);
+    if (!is_wanted) {
+        before_view_->show_state({});
+        return;
+    }
+    before_view_->show_state(document_.before());
+    before_view_->follow_camera(*view_);
 }
 
 void MainWindow::show_verdict(const QualitySummary& summary) {

@@ -131,7 +131,22 @@ void MainWindow::build_center() {
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(banner_);
-    layout->addWidget(view_, 1);
+    before_view_ = new MeshView(nullptr, QStringLiteral("before_view"));
+    auto* views = new QSplitter(Qt::Horizontal);
+    views->setObjectName(QStringLiteral("views"));
+    views->setChildrenCollapsible(false);
+    views->addWidget(before_view_);
+    views->addWidget(view_);
+    before_view_->hide();
+    layout->addWidget(views, 1);
+    for (const auto& [view, text] : {std::pair(before_view_, tr("Before")), std::pair(view_, tr("Now"))}) {
+        QLabel* name = make_label(text, "title");
+        name->setParent(view);
+        name->setObjectName(QStringLiteral("view_name"));
+        name->setAttribute(Qt::WA_TransparentForMouseEvents);
+        name->move(12, 12);
+        name->hide();
+    }
     clip_bar_ = new ClipBar(theme_, view_);
     clip_bar_->hide();
     view_->installEventFilter(this);

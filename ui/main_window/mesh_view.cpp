@@ -34,6 +34,7 @@ namespace {
 struct CameraPose {
     std::array<double, 3> position{}, focus{}, up{};
     double scale = 1.0;
+    bool operator==(const CameraPose&) const = default;
 
     static CameraPose of(vtkCamera* camera) {
         CameraPose pose;
@@ -75,6 +76,7 @@ struct MeshView::Parts {
     MeshState state;  ///< keeps alive what the scene shows
     SceneOptions options;
     QVariantAnimation flight;
+    CameraPose told_pose;                         ///< that camera_moved() told last, or that was taken over
     std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id
     QPointF press_position;
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
@@ -84,8 +86,9 @@ struct MeshView::Parts {
     bool tool_has_mouse = false;  ///< between a press that the tool took and its release
 };
 
-MeshView::MeshView(QWidget* parent) : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
-    setObjectName(QStringLiteral("mesh_view"));
+MeshView::MeshView(QWidget* parent, const QString& object_name)
+    : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
+    setObjectName(object_name);
     setMouseTracking(true);
     setFocusPolicy(Qt::ClickFocus);
     setMinimumSize(240, 160);
@@ -291,6 +294,13 @@ void MeshView::look(ViewDirection direction) {
     request_frame();
 }
 
+void MeshView::follow_camera(const MeshView& other) {
+    parts_->flight.stop();
+    parts_->scene.copy_view(other.parts_->scene, true);
+    parts_->told_pose = CameraPose::of(parts_->scene.renderer()->GetActiveCamera());
+    request_frame();
+}
+
 bool MeshView::draws_element(Index element) const {
     return parts_->scene.draws_element(element);
 }
@@ -391,6 +401,11 @@ void MeshView::paintGL() {
         parts.is_stale = false;
         parts.window->Render();
         emit frame_drawn();
+        const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
+        if (!(pose == parts.told_pose)) {
+            parts.told_pose = pose;
+            emit camera_moved();
+        }
     }
     const int* size = parts.window->GetSize();
     parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());

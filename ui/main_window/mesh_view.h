@@ -21,7 +21,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     Q_OBJECT
 
   public:
-    explicit MeshView(QWidget* parent = nullptr);
+    /// object_name: also of the tests.
+    explicit MeshView(QWidget* parent = nullptr, const QString& object_name = QStringLiteral("mesh_view"));
     ~MeshView() override;
 
     /// Shows a state of the document; one without mesh shows nothing.
@@ -38,6 +39,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void look(ViewDirection direction);
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
+    /// Takes over where another view's camera is.
+    void follow_camera(const MeshView& other);
     /// Moves the camera to an element within 200 ms.
     void fly_to(Index element);
     /// Moves the camera so that a ball fills the view; radius 0: a little of the mesh around the point.
@@ -62,6 +65,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
   signals:
     /// The mouse is there now, in the view's pixels.
     void pointer_moved(QPointF position);
+    /// A frame was drawn from somewhere else than the one before, but not where follow_camera() put it.
+    void camera_moved();
     /// A frame has been drawn anew and is about to be seen.
     void frame_drawn();
     /// An element was clicked (none: the background).

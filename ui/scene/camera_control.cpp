@@ -267,7 +267,8 @@ void CameraControl::zoom(double factor, double x, double y, const std::optional<
     place(camera, focal, position, vector(camera->GetViewUp()));
 }
 
-void CameraControl::copy_view(const CameraControl& other, const WorldFrame& theirs, const WorldFrame& ours) {
+void CameraControl::copy_view(const CameraControl& other, const WorldFrame& theirs, const WorldFrame& ours,
+                              bool is_exact) {
     vtkCamera* camera = renderer_->GetActiveCamera();
     vtkCamera* source = other.renderer_->GetActiveCamera();
     const double scale = theirs.size / ours.size;
@@ -277,7 +278,7 @@ void CameraControl::copy_view(const CameraControl& other, const WorldFrame& thei
     };
     place(camera, convert(source->GetFocalPoint()), convert(source->GetPosition()), vector(source->GetViewUp()));
     camera->SetParallelScale(source->GetParallelScale() * scale);
-    keeps_fitted_ = other.keeps_fitted_ && other.fitted_camera_time_ == source->GetMTime();
+    keeps_fitted_ = !is_exact && other.keeps_fitted_ && other.fitted_camera_time_ == source->GetMTime();
     fitted_size_ = {0, 0};
     fitted_camera_time_ = camera->GetMTime();
 }

@@ -44,8 +44,8 @@ class CameraControl {
     /// Columns: right, up, towards the eye.
     Eigen::Matrix3d axes() const;
 
-    /// Takes over the other camera's position (the frames may differ).
-    void copy_view(const CameraControl& other, const WorldFrame& theirs, const WorldFrame& ours);
+    /// Takes over the other camera's position (the frames may differ). is_exact: even if the other is kept fitted.
+    void copy_view(const CameraControl& other, const WorldFrame& theirs, const WorldFrame& ours, bool is_exact);
 
   private:
     void fit();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
@@ -56,8 +57,9 @@ std::vector<float> select_points(const Tessellation& tessellation, bool on_bound
 
 /// Where elements are many they are small on the screen, and the chord tolerance alone is enough: pieces are what a
 /// frame costs. Few elements are cut finer, so that they stay smooth when one comes close.
-TessellationOptions tessellation_options(const MeshTopology& topology) {
+TessellationOptions tessellation_options(const MeshTopology& topology, double element_size) {
     TessellationOptions options;
+    options.element_size = element_size;
     const std::size_t faces = topology.dimension() == 3 ? topology.boundary_facets().size()
                                                         : static_cast<std::size_t>(topology.element_count());
     options.min_subdivisions = faces <= 8000 ? 4 : faces <= 40000 ? 2 : 1;
@@ -169,13 +171,22 @@ struct MeshScene::Parts {
     /// Makes the drawing of the mesh anew, or moves it if nothing but positions has changed.
     void draw_mesh(bool may_move) {
         std::vector<bool> now_visible = find_visible(*mesh, options.clip);
+        if (options.only_elements) {
+            const std::vector<bool> cut = std::exchange(now_visible, {});
+            now_visible.assign(static_cast<std::size_t>(mesh->topology().element_count()), false);
+            for (const Index element : *options.only_elements)
+                if (element >= 0 && element < mesh->topology().element_count())
+                    now_visible[static_cast<std::size_t>(element)] =
+                        cut.empty() || cut[static_cast<std::size_t>(element)];
+        }
         const bool moves =
             may_move && tessellation && now_visible == visible && tessellation->is_fine_enough(mesh->coordinates());
         visible = std::move(now_visible);
         if (moves)
             tessellation->move(mesh->coordinates());
         else
-            tessellation = std::make_unique<Tessellation>(*mesh, visible, tessellation_options(mesh->topology()));
+            tessellation = std::make_unique<Tessellation>(*mesh, visible,
+                                                          tessellation_options(mesh->topology(), options.element_size));
         surface.set_lit(!is_flat());
         surface.set_surface(*tessellation, !moves);
         surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
@@ -345,13 +356,16 @@ void MeshScene::show_frame(const Coordinates& positions, const QualityReport* qu
 
 void MeshScene::set_options(const SceneOptions& options) {
     Parts& parts = *parts_;
-    const std::optional<ClipPlane> before = parts.options.clip;
+    const SceneOptions before_options = parts.options;
+    const std::optional<ClipPlane>& before = before_options.clip;
     parts.options = options;
+    const bool is_size_changed = before_options.element_size != options.element_size;
     const bool is_clip_changed =
+        is_size_changed || before_options.only_elements != options.only_elements ||
         before.has_value() != options.clip.has_value() ||
         (before && (before->normal != options.clip->normal || before->position != options.clip->position));
     if (parts.mesh && is_clip_changed)
-        parts.draw_mesh(true);
+        parts.draw_mesh(!is_size_changed);
     else
         parts.apply_options();
 }
@@ -453,9 +467,9 @@ std::vector<Index> MeshScene::elements_inside(const std::vector<std::array<doubl
                                 !is_flat() && !see_through);
 }
 
-void MeshScene::copy_view(const MeshScene& other) {
+void MeshScene::copy_view(const MeshScene& other, bool is_exact) {
     if (!parts_->mesh || !other.parts_->mesh) return;
-    parts_->camera.copy_view(other.parts_->camera, other.parts_->frame, parts_->frame);
+    parts_->camera.copy_view(other.parts_->camera, other.parts_->frame, parts_->frame, is_exact);
 }
 
 void MeshScene::attach_interactor(vtkRenderWindowInteractor* interactor) {

@@ -27,7 +27,9 @@ struct SceneOptions {
     bool show_edges = true;
     bool show_nodes = false;
     bool show_legend = true;
-    std::optional<ClipPlane> clip;  ///< 3D meshes only
+    std::optional<ClipPlane> clip;                    ///< 3D meshes only
+    double element_size = 1.0;                        ///< below 1: gaps between the elements
+    std::optional<std::vector<Index>> only_elements;  ///< the others are hidden
     Color background{1.0, 1.0, 1.0};
     Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
     Color edge_color{0.25, 0.27, 0.30};
@@ -72,8 +74,9 @@ class MeshScene {
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
 
-    /// Takes over the view of another scene that shows the same mesh or another state of it.
-    void copy_view(const MeshScene& other);
+    /// Takes over the view of another scene that shows the same mesh or another state of it. One that is kept fitted to
+    /// the window is kept fitted to this scene's own; is_exact: the camera is where the other one is, and stays there.
+    void copy_view(const MeshScene& other, bool is_exact = false);
 
     /// Element under a display position (device pixels, origin bottom left); none = background.
     std::optional<Index> pick_element(double x, double y) const;

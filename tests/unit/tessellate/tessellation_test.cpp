@@ -14,6 +14,8 @@
 #include "core/basis/reference_element.h"
 #include "core/mesh/elevate.h"
 
+#include "tests/support/mesh_factory.h"
+
 namespace curvewright {
 namespace {
 
@@ -333,6 +335,44 @@ TEST(Tessellation, DrawsEveryShape) {
     const Tessellation line(make_element({Shape::line, 2}));
     EXPECT_TRUE(line.triangles().empty());
     EXPECT_EQ(line.line_elements().size(), 1u);
+}
+
+TEST(Tessellation, ShrunkElementsStandAlone) {
+    using namespace curvewright::testing;
+    for (const CurvedMesh& mesh : {square_mesh(3, 3), hex_mesh(2, 2), prism_mesh(1, 2), cube_mesh(2, 2)}) {
+        TessellationOptions options;
+        options.element_size = 0.5;
+        const Tessellation shrunk(mesh, {}, options), whole(mesh);
+        // Every element is drawn, with all of its points half as far from the mean of its corners.
+        std::vector<double> extent(static_cast<std::size_t>(mesh.topology().element_count()), 0.0);
+        for (std::size_t i = 0; i < shrunk.triangles().size(); ++i) {
+            const Index element = shrunk.triangle_elements()[i / 3];
+            const float* x = shrunk.surface_points().data() + 3 * shrunk.triangles()[i];
+            const Eigen::RowVector3d at = Eigen::RowVector3d(x[0], x[1], x[2]) + shrunk.origin();
+            double& largest = extent[static_cast<std::size_t>(element)];
+            largest = std::max(largest, (at - mesh.element_center(element)).norm());
+        }
+        std::size_t edges = 0;
+        for (Index element = 0; element < mesh.topology().element_count(); ++element) {
+            const Eigen::MatrixX3d x = mesh.element_coordinates(element);
+            const double full = (x.rowwise() - mesh.element_center(element)).rowwise().norm().maxCoeff();
+            EXPECT_NEAR(extent[static_cast<std::size_t>(element)], 0.5 * full, 1e-6);
+            edges += reference_element(mesh.topology().element_type(element)).edges.size();
+        }
+        EXPECT_EQ(shrunk.line_elements().size(), edges);
+        // Moving does the same as making it anew.
+        Tessellation moved(mesh, {}, options);
+        const Coordinates elsewhere = (1.5 * mesh.coordinates()).eval();
+        moved.move(elsewhere);
+        const float* point = moved.surface_points().data();
+        const float* before = shrunk.surface_points().data();
+        const Eigen::RowVector3d a = Eigen::RowVector3d(point[0], point[1], point[2]) + moved.origin();
+        const Eigen::RowVector3d b = Eigen::RowVector3d(before[0], before[1], before[2]) + shrunk.origin();
+        EXPECT_LT((a - 1.5 * b).norm(), 1e-5);
+    }
+    TessellationOptions wrong;
+    wrong.element_size = 0.0;
+    EXPECT_THROW(Tessellation(square_mesh(2, 2), {}, wrong), InvalidInput);
 }
 
 TEST(Tessellation, MixedShapesShareTheirFace) {

@@ -1,0 +1,117 @@
+/// Ways of looking at a mesh: side by side, shrunk, only the worst.
+
+#include <QLabel>
+#include <QSettings>
+
+#include "tests/gui/drag_under_test.h"
+
+using namespace curvewright;
+using namespace curvewright::testing;
+
+namespace {
+
+struct LookingUnderTest : DragUnderTest {
+    using DragUnderTest::DragUnderTest;
+    MeshView& before_view() { return *find<MeshView>("before_view"); }
+    void toggle(CommandId id) {
+        window->action(id)->trigger();
+        QTest::qWait(60);
+    }
+    /// Pixels of the picture that are not of the ground.
+    static int drawn(const QImage& picture) {
+        const QRgb ground = picture.pixel(1, 1);
+        int count = 0;
+        for (int y = 0; y < picture.height(); ++y)
+            for (int x = 0; x < picture.width(); ++x) count += picture.pixel(x, y) != ground;
+        return count;
+    }
+};
+
+}  // namespace
+
+class LookingTest : public QObject {
+    Q_OBJECT
+
+  private slots:
+    void init() { QSettings().clear(); }
+
+    void before_and_now_stand_side_by_side() {
+        LookingUnderTest test;
+        QVERIFY(!test.before_view().isVisible());
+        const Index node = test.node_at(0.5, 0.0);
+        test.drag_node(node, {20, -30});
+        const Coordinates now = test.positions(), before = test.document().before().mesh->coordinates();
+        test.toggle(CommandId::compare);
+        QVERIFY(test.before_view().isVisible());
+        QVERIFY(std::abs(test.before_view().width() - test.view().width()) < 20);
+        // The same camera: the same point shows at the same place, from the middle of each view.
+        const auto from_middle = [](const MeshView& view, const Eigen::RowVector3d& point) {
+            return view.to_display(point) - QPointF(view.width(), view.height()) / 2.0;
+        };
+        const auto is_linked = [&] {
+            const QPointF a = from_middle(test.view(), Eigen::RowVector3d(1.0, 1.0, 0.0)) -
+                              from_middle(test.view(), Eigen::RowVector3d(0.0, 0.0, 0.0));
+            const QPointF b = from_middle(test.before_view(), Eigen::RowVector3d(1.0, 1.0, 0.0)) -
+                              from_middle(test.before_view(), Eigen::RowVector3d(0.0, 0.0, 0.0));
+            return (a - b).manhattanLength() < 1.0;
+        };
+        QVERIFY(is_linked());
+        // Zooming in either zooms both.
+        for (MeshView* view : {&test.view(), &test.before_view()}) {
+            const double unit = test.unit();
+            QWheelEvent event(view->rect().center(), view->mapToGlobal(view->rect().center()), {}, {0, 240},
+                              Qt::NoButton, {}, Qt::NoScrollPhase, false);
+            QApplication::sendEvent(view, &event);
+            QTest::qWait(60);
+            QVERIFY(test.unit() < 0.8 * unit);
+            QVERIFY(is_linked());
+        }
+        // What is dragged now does not change what was before; undo shows the steps before that.
+        const QImage left = test.before_view().picture(1);
+        test.toggle(CommandId::fit);
+        test.click("tool_undo");
+        QCOMPARE(test.positions(), before);
+        test.click("tool_redo");
+        QCOMPARE(test.positions(), now);
+        QVERIFY(!left.isNull());
+        test.toggle(CommandId::compare);
+        QVERIFY(!test.before_view().isVisible());
+    }
+
+    void shrunk_elements_leave_gaps_and_still_move() {
+        LookingUnderTest test;
+        const int whole = LookingUnderTest::drawn(test.view().picture(1));
+        test.toggle(CommandId::shrink);
+        const int shrunk = LookingUnderTest::drawn(test.view().picture(1));
+        QVERIFY2(shrunk < 0.8 * whole && shrunk > 0.4 * whole,
+                 qPrintable(QStringLiteral("%1 %2").arg(whole).arg(shrunk)));
+        test.drag_node(test.node_at(0.5, 0.0), {0, 40});
+        QVERIFY(LookingUnderTest::drawn(test.view().picture(1)) > shrunk);
+        test.toggle(CommandId::shrink);
+        QVERIFY(LookingUnderTest::drawn(test.view().picture(1)) > 0.95 * whole);
+    }
+
+    void only_the_worst_are_shown() {
+        LookingUnderTest test;
+        test.drag_node(test.node_at(0.5, 0.0), {0, -40});
+        const int all = LookingUnderTest::drawn(test.view().picture(1));
+        test.toggle(CommandId::worst_only);
+        QVERIFY(LookingUnderTest::drawn(test.view().picture(1)) < 0.7 * all);
+        const auto worst = test.document().state().quality->worst(10);
+        for (Index element = 0; element < test.topology().element_count(); ++element)
+            QCOMPARE(test.view().draws_element(element), std::count(worst.begin(), worst.end(), element) == 1);
+        // They follow the history.
+        test.click("tool_undo");
+        const auto first = test.document().state().quality->worst(10);
+        for (const Index element : first) QVERIFY(test.view().draws_element(element));
+        test.toggle(CommandId::worst_only);
+        for (Index element = 0; element < test.topology().element_count(); ++element)
+            QVERIFY(test.view().draws_element(element));
+    }
+};
+
+QObject* make_test() {
+    return new LookingTest;
+}
+
+#include "looking_test.moc"
