@@ -8,6 +8,7 @@
 #include <QTreeWidget>
 
 #include "tests/gui/drag_under_test.h"
+#include "ui/panels/jacobian_map.h"
 
 using namespace curvewright;
 using namespace curvewright::testing;
@@ -212,6 +213,50 @@ class SelectionTest : public QObject {
         QCOMPARE(detail("x").toDouble(), 0.5);
         QCOMPARE(detail("Lies"), QStringLiteral("boundary"));
         QVERIFY(detail("Groups").contains(QStringLiteral("bottom")));
+    }
+
+    void the_jacobian_is_shown_inside_an_element() {
+        SelectionUnderTest test(CommandId::tool_drag);
+        test.drag_node(test.node_at(0.5, 0.0), {4, -22});
+        test.window->show_tab(QStringLiteral("inspect"));
+        const Index worst = test.document().state().quality->worst(1).front();
+        test.edit().select_elements({worst});
+        auto* map = test.find<JacobianMap>("jacobian_map");
+        QVERIFY(map->isVisible());
+        const ElementQuality& quality = test.document().state().quality->elements[static_cast<std::size_t>(worst)];
+        // Sampled between what is proved.
+        QVERIFY(map->least() * quality.max_upper >= quality.min_lower - 1e-12);
+        QVERIFY(map->least() < quality.scaled_jacobian + 0.1);
+        QVERIFY(map->largest() <= 1.0 + 1e-12 && map->largest() > 0.9);
+        test.edit().select({}, {});
+        QVERIFY(!map->isVisible());
+    }
+
+    void spokes_show_the_weights_of_a_node() {
+        SelectionUnderTest test(CommandId::tool_select);
+        test.window->show_tab(QStringLiteral("inspect"));
+        const Index node = test.node_at(0.5, 0.5);
+        const QImage before = test.view().picture(1);
+        test.edit().select_nodes({node});
+        const Spokes& spokes = test.edit().spokes();
+        QCOMPARE(spokes.node, std::optional(node));
+        QVERIFY(spokes.neighbours.size() > 6);
+        double sum = 0.0;
+        Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+        for (std::size_t i = 0; i < spokes.neighbours.size(); ++i) {
+            QVERIFY(spokes.weights[i] > 0.0);  // convex
+            sum += spokes.weights[i];
+            middle += spokes.weights[i] * test.positions().row(spokes.neighbours[i]);
+        }
+        QVERIFY(std::abs(sum - 1.0) < 1e-9);
+        QVERIFY((middle - test.positions().row(node)).norm() < 1e-9);
+        const auto rows =
+            test.find<QTreeWidget>("selection_details")->findItems(QStringLiteral("Weight of"), Qt::MatchStartsWith);
+        QCOMPARE(rows.size(), qsizetype(spokes.neighbours.size()));
+        QVERIFY(test.view().picture(1) != before);
+        // Boundary nodes have none.
+        test.edit().select_nodes({test.node_at(0.5, 0.0)});
+        QVERIFY(!test.edit().spokes().node);
     }
 
     void arrows_move_the_selection() {

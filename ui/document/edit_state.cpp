@@ -45,6 +45,7 @@ void EditState::start_anew() {
     nodes_.clear();
     elements_.clear();
     pins_.clear();
+    spokes_ = {};
     boundary_.reset();
     node_elements_.reset();
     parts_mesh_.reset();
@@ -77,6 +78,12 @@ void EditState::set_pins(IndexSet pins) {
     if (pins == pins_) return;
     pins_ = std::move(pins);
     emit pins_changed();
+}
+
+void EditState::set_spokes(Spokes spokes) {
+    if (!spokes.node && !spokes_.node) return;
+    spokes_ = std::move(spokes);
+    emit spokes_changed();
 }
 
 void EditState::set_settings(const EditSettings& settings) {

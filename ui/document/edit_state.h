@@ -46,6 +46,13 @@ struct SelectSettings {
     bool sees_through = false;  ///< solids: what the surface hides too
 };
 
+/// How a node hangs on its neighbours.
+struct Spokes {
+    std::optional<Index> node;
+    std::vector<Index> neighbours;
+    std::vector<double> weights;  ///< sum 1
+};
+
 struct EditSettings {
     GrabUnit unit = GrabUnit::node;
     bool is_soft = true;
@@ -72,12 +79,14 @@ class EditState : public QObject {
     const IndexSet& nodes() const { return nodes_; }        ///< selected
     const IndexSet& elements() const { return elements_; }  ///< selected
     const IndexSet& pins() const { return pins_; }
+    const Spokes& spokes() const { return spokes_; }  ///< of the node that is looked at
     const EditSettings& settings() const { return settings_; }
 
     void select(IndexSet nodes, IndexSet elements);
     void select_nodes(IndexSet nodes) { select(std::move(nodes), {}); }
     void select_elements(IndexSet elements) { select({}, std::move(elements)); }
     void set_pins(IndexSet pins);
+    void set_spokes(Spokes spokes);
     void set_settings(const EditSettings& settings);
 
     void grow();
@@ -95,6 +104,7 @@ class EditState : public QObject {
   signals:
     void selection_changed();
     void pins_changed();
+    void spokes_changed();
     void settings_changed();
 
   private:
@@ -103,6 +113,7 @@ class EditState : public QObject {
 
     MeshDocument& document_;
     IndexSet nodes_, elements_, pins_;
+    Spokes spokes_;
     EditSettings settings_;
     std::shared_ptr<const CurvedMesh> parts_mesh_;  ///< that boundary_ was made of
     std::optional<BoundaryParts> boundary_;

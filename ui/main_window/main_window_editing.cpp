@@ -13,6 +13,7 @@
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/pointer_tag.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/selection_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/tools/drag_tool.h"
 #include "ui/tools/look_tool.h"
@@ -70,6 +71,7 @@ void MainWindow::connect_editing() {
     };
     connect(&edit_, &EditState::selection_changed, this, refresh);
     connect(&edit_, &EditState::pins_changed, this, refresh);
+    connect(&edit_, &EditState::spokes_changed, this, refresh);
     connect(&edit_, &EditState::settings_changed, this, [this, refresh] {
         actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
         refresh();
@@ -82,8 +84,12 @@ void MainWindow::connect_editing() {
         edit_.set_settings(settings);
     });
     actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
-    connect(warp_panel_, &OperationPanel::refreshed, this, [this] { drag_.set_weights(warp_panel_->options()); });
-    drag_.set_weights(warp_panel_->options());
+    const auto use_weights = [this] {
+        drag_.set_weights(warp_panel_->options());
+        selection_panel_->set_weights(warp_panel_->options());
+    };
+    connect(warp_panel_, &OperationPanel::refreshed, this, use_weights);
+    use_weights();
     connect(actions_[CommandId::compare], &QAction::toggled, this, [this](bool is_on) {
         show_before();
         // Two halves, for the first time and whenever the window has changed in between.

@@ -175,7 +175,7 @@ QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt:
 void MainWindow::build_docks() {
     mesh_panel_ = new MeshPanel(document_);
     edit_panel_ = new EditPanel(edit_, drag_);
-    selection_panel_ = new SelectionPanel(edit_);
+    selection_panel_ = new SelectionPanel(edit_, theme_);
     deform_panel_ = new DeformPanel(jobs_);
     warp_panel_ = new WarpPanel(jobs_);
     untangle_panel_ = new UntanglePanel(jobs_);

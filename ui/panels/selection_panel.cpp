@@ -12,8 +12,10 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "core/base/error.h"
 #include "ui/document/number_format.h"
 #include "ui/panels/form_fields.h"
+#include "ui/panels/jacobian_map.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -52,7 +54,7 @@ QString validity_word(Validity validity) {
 
 }  // namespace
 
-SelectionPanel::SelectionPanel(EditState& edit, QWidget* parent) : QWidget(parent), edit_(edit) {
+SelectionPanel::SelectionPanel(EditState& edit, const Theme& theme, QWidget* parent) : QWidget(parent), edit_(edit) {
     make_selecting();
     list_ = make_table("selection_list");
     list_->setMinimumHeight(72);
@@ -61,6 +63,9 @@ SelectionPanel::SelectionPanel(EditState& edit, QWidget* parent) : QWidget(paren
     details_->setMinimumHeight(120);
     layout()->addWidget(list_);
     layout()->addWidget(details_);
+    map_ = new JacobianMap(theme);
+    map_->hide();
+    layout()->addWidget(map_);
     static_cast<QVBoxLayout*>(layout())->setStretchFactor(list_, 2);
     static_cast<QVBoxLayout*>(layout())->setStretchFactor(details_, 3);
     connect(list_, &QTreeWidget::currentItemChanged, this, &SelectionPanel::show_details);
@@ -181,7 +186,7 @@ void SelectionPanel::show_selection() {
     const QSignalBlocker blocker(list_);
     list_->clear();
     if (!state.mesh) {
-        details_->clear();
+        show_details();
         return;
     }
     const MeshTopology& topology = state.mesh->topology();
@@ -231,8 +236,12 @@ void SelectionPanel::add_detail(const QString& name, const QString& value, const
 
 void SelectionPanel::show_details() {
     details_->clear();
+    map_->clear();
     const QTreeWidgetItem* item = list_->currentItem();
-    if (!item || item->data(0, index_role).isNull() || !edit_.document().has_mesh()) return;
+    const bool is_any = item && !item->data(0, index_role).isNull() && edit_.document().has_mesh();
+    const bool is_node = is_any && !item->data(0, is_element_role).toBool();
+    edit_.set_spokes(is_node ? find_spokes(item->data(0, index_role).toInt()) : Spokes{});
+    if (!is_any) return;
     const Index index = item->data(0, index_role).toInt();
     if (item->data(0, is_element_role).toBool())
         show_element(index);
@@ -261,6 +270,7 @@ void SelectionPanel::show_element(Index element) {
                    tr("The largest Jacobian lies between %1 and %2: that is proved.")
                        .arg(exact_number(quality.max_lower), exact_number(quality.max_upper)));
     }
+    if (state.quality) map_->show_element(*state.mesh, element, *state.quality);
     QStringList tags;
     for (const Index node : topology.element_nodes(element)) tags << QString::number(topology.node_tag(node).value);
     add_detail(tr("Nodes"), tags.join(QStringLiteral(", ")));
@@ -290,6 +300,35 @@ void SelectionPanel::show_node(Index node) {
     for (const Index element : elements_with_any(topology, {node}))
         tags << QString::number(topology.element_tag(element).value);
     add_detail(tr("Elements"), tags.join(QStringLiteral(", ")));
+    const Spokes& spokes = edit_.spokes();
+    for (std::size_t i = 0; i < spokes.neighbours.size(); ++i)
+        add_detail(
+            tr("Weight of %1").arg(topology.node_tag(spokes.neighbours[i]).value), format_number(spokes.weights[i]),
+            tr("The node moves by this part of what its neighbour moves: %1").arg(exact_number(spokes.weights[i])));
+}
+
+void SelectionPanel::set_weights(const WarpOptions& options) {
+    weights_ = options;
+    show_details();
+}
+
+Spokes SelectionPanel::find_spokes(Index node) const {
+    const CurvedMesh& mesh = *edit_.document().state().mesh;
+    if (!mesh.topology().is_interior_node(node) || weights_.weighting == Weighting::elastic) return {};
+    try {
+        // Those that a drag uses: of the mesh as opened, as long as it is the same mesh.
+        const CurvedMesh& opened = *edit_.document().original().mesh;
+        const CurvedMesh& base = opened.shared_topology() == mesh.shared_topology() ? opened : mesh;
+        const NeighbourSets sets = find_neighbours(base.topology(), {node}, weights_.neighbours);
+        const WeightTable table =
+            compute_weights(base, sets,
+                            weights_.weighting == Weighting::affine
+                                ? affine_weighting(weights_.distance_power, weights_.sharing_power)
+                                : convex_weighting(weights_.distance_power, weights_.sharing_power));
+        return {node, sets.nodes, table.weights};
+    } catch (const Error&) {
+        return {};  // a mesh that cannot be warped this way has no weights to show
+    }
 }
 
 }  // namespace curvewright

@@ -2,7 +2,9 @@
 
 #include <QWidget>
 
+#include "core/warp/warp.h"
 #include "ui/document/edit_state.h"
+#include "ui/panels/theme.h"
 
 class QComboBox;
 class QCheckBox;
@@ -13,12 +15,17 @@ class QTreeWidget;
 
 namespace curvewright {
 
+class JacobianMap;
+
 /// What is selected, how to select more, and everything there is to know about one of it.
 class SelectionPanel : public QWidget {
     Q_OBJECT
 
   public:
-    explicit SelectionPanel(EditState& edit, QWidget* parent = nullptr);
+    SelectionPanel(EditState& edit, const Theme& theme, QWidget* parent = nullptr);
+
+    /// The options of a warp: whose weights a node's spokes show.
+    void set_weights(const WarpOptions& options);
 
     /// Longer lists are cut, with a line that says so.
     static constexpr int max_rows = 300;
@@ -38,7 +45,11 @@ class SelectionPanel : public QWidget {
     void show_element(Index element);
     void show_node(Index node);
 
+    Spokes find_spokes(Index node) const;
+
     EditState& edit_;
+    WarpOptions weights_;
+    JacobianMap* map_ = nullptr;
     bool is_showing_ = false;
     QLabel* count_ = nullptr;
     QComboBox *what_ = nullptr, *shape_ = nullptr;

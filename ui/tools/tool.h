@@ -59,7 +59,7 @@ class Tool : public QObject {
     ToolContext context_;
 };
 
-/// Selected and pinned nodes as marks; positions: of the nodes.
+/// Selected and pinned nodes, and the weights of a node that is looked at, as marks; positions: of the nodes.
 void add_state_marks(Marks& marks, const EditState& edit, const Coordinates& positions);
 void add_points(Marks& marks, const IndexSet& nodes, const Coordinates& positions, MarkRole role);
 
