@@ -91,7 +91,11 @@ void show_shortcuts(QWidget* parent) {
     };
     grid->addWidget(make_label(tr("Mouse"), "section"), row++, 0, 1, 2);
     add(tr("Wheel"), tr("Zoom, in 2D to the pointer"));
-    add(tr("Drag"), tr("Move a 2D mesh, turn a 3D mesh"));
+    add(tr("Drag a boundary node"), tr("With the drag tool: move it; the mesh follows"));
+    add(tr("Wheel while dragging"), tr("Take more or fewer neighbours along"));
+    add(tr("X, Y, Z, N while dragging"), tr("Keep to an axis or to the normal; again: free"));
+    add(tr("Shift+drag, Ctrl+drag"), tr("With the drag tool: along the normal; without snapping"));
+    add(tr("Drag elsewhere, right drag"), tr("Move a 2D mesh, turn a 3D mesh"));
     add(tr("Shift+drag, middle drag"), tr("Move the mesh"));
     add(tr("Click"), tr("Tell about the element, the bar of a histogram or the group"));
     grid->setRowMinimumHeight(row++, 8);
