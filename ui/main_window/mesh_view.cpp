@@ -1,4 +1,4 @@
-#include "ui/main_window/mesh_view.h"
+#include "ui/main_window/mesh_view_parts.h"
 
 #include <array>
 #include <cstdlib>
@@ -30,28 +30,6 @@
 namespace curvewright {
 namespace {
 
-/// What a fly-to changes of a camera.
-struct CameraPose {
-    std::array<double, 3> position{}, focus{}, up{};
-    double scale = 1.0;
-    bool operator==(const CameraPose&) const = default;
-
-    static CameraPose of(vtkCamera* camera) {
-        CameraPose pose;
-        camera->GetPosition(pose.position.data());
-        camera->GetFocalPoint(pose.focus.data());
-        camera->GetViewUp(pose.up.data());
-        pose.scale = camera->GetParallelScale();
-        return pose;
-    }
-    void apply(vtkCamera* camera) const {
-        camera->SetPosition(position.data());
-        camera->SetFocalPoint(focus.data());
-        camera->SetViewUp(up.data());
-        camera->SetParallelScale(scale);
-    }
-};
-
 CameraPose between(const CameraPose& a, const CameraPose& b, double t) {
     CameraPose pose;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -66,25 +44,6 @@ CameraPose between(const CameraPose& a, const CameraPose& b, double t) {
 constexpr int click_distance = 4;  ///< pixels that a click may wander
 
 }  // namespace
-
-struct MeshView::Parts {
-    MeshScene scene;
-    vtkNew<vtkGenericOpenGLRenderWindow> window;
-    vtkNew<vtkGenericRenderWindowInteractor> interactor;
-    vtkNew<vtkCallbackCommand> events;
-    QOpenGLFunctions_3_2_Core* gl = nullptr;
-    MeshState state;  ///< keeps alive what the scene shows
-    SceneOptions options;
-    QVariantAnimation flight;
-    CameraPose told_pose;                         ///< that camera_moved() told last, or that was taken over
-    std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id
-    QPointF press_position;
-    int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
-    bool is_stale = true;
-    bool may_be_click = false;
-    QPointer<Tool> tool;
-    bool tool_has_mouse = false;  ///< between a press that the tool took and its release
-};
 
 MeshView::MeshView(QWidget* parent, const QString& object_name)
     : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
@@ -197,75 +156,6 @@ void MeshView::set_tool(Tool* tool) {
     parts.tool = tool;
     setCursor({});
     if (tool) tool->enter();
-}
-
-std::array<double, 2> MeshView::to_device(QPointF position) const {
-    const double ratio = devicePixelRatioF();
-    return {position.x() * ratio, parts_->window->GetSize()[1] - 1 - position.y() * ratio};
-}
-
-QPointF MeshView::from_device(double x, double y) const {
-    const double ratio = devicePixelRatioF();
-    return {x / ratio, (parts_->window->GetSize()[1] - 1 - y) / ratio};
-}
-
-bool MeshView::is_flat() const {
-    return parts_->scene.is_flat();
-}
-
-QPointF MeshView::to_display(const Eigen::RowVector3d& point) const {
-    const Eigen::Vector4d at = parts_->scene.project(point);
-    return from_device(at[0], at[1]);
-}
-
-Eigen::RowVector3d MeshView::to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const {
-    const auto [x, y] = to_device(position);
-    return parts_->scene.unproject(x, y, at_depth_of);
-}
-
-double MeshView::units_per_pixel(const Eigen::RowVector3d& at) const {
-    return parts_->scene.units_per_pixel(at) * devicePixelRatioF();
-}
-
-Eigen::Matrix3d MeshView::view_axes() const {
-    return parts_->scene.view_axes();
-}
-
-std::optional<Index> MeshView::node_at(QPointF position, double radius,
-                                       const std::function<bool(Index)>& accepts) const {
-    const auto [x, y] = to_device(position);
-    return parts_->scene.pick_node(x, y, radius * devicePixelRatioF(), accepts);
-}
-
-std::optional<Index> MeshView::element_at(QPointF position) const {
-    const auto [x, y] = to_device(position);
-    return parts_->scene.pick_element(x, y);
-}
-
-std::vector<Index> MeshView::nodes_inside(const std::vector<QPointF>& polygon, bool see_through) const {
-    std::vector<std::array<double, 2>> corners;
-    for (const QPointF& corner : polygon) corners.push_back(to_device(corner));
-    return parts_->scene.nodes_inside(corners, see_through);
-}
-
-std::vector<Index> MeshView::elements_inside(const std::vector<QPointF>& polygon, bool see_through) const {
-    std::vector<std::array<double, 2>> corners;
-    for (const QPointF& corner : polygon) corners.push_back(to_device(corner));
-    return parts_->scene.elements_inside(corners, see_through);
-}
-
-void MeshView::show_marks(Marks marks, const std::vector<QPointF>& rubber) {
-    if (rubber.size() > 1) {
-        MarkLine line{{}, MarkRole::rubber, 1.0};
-        for (const QPointF& corner : rubber) {
-            const auto [x, y] = to_device(corner);
-            line.points.push_back({x, y, 0.0});
-        }
-        line.points.push_back(line.points.front());
-        marks.lines.push_back(std::move(line));
-    }
-    parts_->scene.set_marks(marks);
-    request_frame();
 }
 
 void MeshView::set_options(const SceneOptions& options) {

@@ -1,0 +1,64 @@
+#pragma once
+
+// What the files of MeshView share, and nobody else includes.
+
+#include <array>
+
+#include <QOpenGLFunctions_3_2_Core>
+#include <QPointer>
+#include <QTimer>
+#include <QVariantAnimation>
+
+#include <vtkCallbackCommand.h>
+#include <vtkCamera.h>
+#include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkGenericRenderWindowInteractor.h>
+#include <vtkNew.h>
+
+#include "ui/main_window/mesh_view.h"
+#include "ui/tools/tool.h"
+
+namespace curvewright {
+
+/// What a fly-to changes of a camera.
+struct CameraPose {
+    std::array<double, 3> position{}, focus{}, up{};
+    double scale = 1.0;
+    bool operator==(const CameraPose&) const = default;
+
+    static CameraPose of(vtkCamera* camera) {
+        CameraPose pose;
+        camera->GetPosition(pose.position.data());
+        camera->GetFocalPoint(pose.focus.data());
+        camera->GetViewUp(pose.up.data());
+        pose.scale = camera->GetParallelScale();
+        return pose;
+    }
+    void apply(vtkCamera* camera) const {
+        camera->SetPosition(position.data());
+        camera->SetFocalPoint(focus.data());
+        camera->SetViewUp(up.data());
+        camera->SetParallelScale(scale);
+    }
+};
+
+struct MeshView::Parts {
+    MeshScene scene;
+    vtkNew<vtkGenericOpenGLRenderWindow> window;
+    vtkNew<vtkGenericRenderWindowInteractor> interactor;
+    vtkNew<vtkCallbackCommand> events;
+    QOpenGLFunctions_3_2_Core* gl = nullptr;
+    MeshState state;  ///< keeps alive what the scene shows
+    SceneOptions options;
+    QVariantAnimation flight;
+    CameraPose told_pose;                         ///< that camera_moved() told last, or that was taken over
+    std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id
+    QPointF press_position;
+    int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
+    bool is_stale = true;
+    bool may_be_click = false;
+    QPointer<Tool> tool;
+    bool tool_has_mouse = false;  ///< between a press that the tool took and its release
+};
+
+}  // namespace curvewright
