@@ -153,6 +153,53 @@ TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
             << "left behind: " << entry.path();
 }
 
+TEST_F(CommandLine, ReplayDoesWhatTheCommandsDo) {
+    make_tangled();
+    const std::string session = folder / "work.json", out = folder / "out.msh", again = folder / "again.msh";
+    ASSERT_EQ(cli({"untangle", tangled, "-o", out, "--method", "guaranteed", "--target", "0.5"}).status, 0);
+    write(session, "{\"action\": \"open\", \"mesh\": \"" + annulus + "\"}\n\n" +
+                       "{\"action\": \"deform\", \"deformation\": \"" + annulus_deformation + "\"}\n" +
+                       "{\"action\": \"untangle\", \"method\": \"unsigned-angle\"}\n" +
+                       "{\"action\": \"history\", \"step\": 1}\n" +
+                       "{\"action\": \"untangle\", \"method\": \"guaranteed\", \"target\": 0.5}\n");
+    const ProcessResult result = cli({"replay", session, "-o", again, "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json json = Json::parse(result.output);
+    EXPECT_EQ(json["actions"], 5);
+    EXPECT_EQ(json["scaled_jacobian"]["valid"], 30);
+    EXPECT_EQ(json["before"]["scaled_jacobian"]["invalid"], 0);
+    // The tangled state went through a file in between; its 17 digits lose nothing.
+    EXPECT_EQ(read_mesh(again).mesh.coordinates(), read_mesh(out).mesh.coordinates());
+    // Without an output it tells what came out.
+    EXPECT_NE(cli({"replay", session}).output.find("5 actions replayed"), std::string::npos);
+    // A file beside the session is found from anywhere.
+    write(session, "{\"action\": \"open\", \"mesh\": \"tangled.msh\"}\n");
+    EXPECT_EQ(cli({"replay", session}).status, 3);
+}
+
+TEST_F(CommandLine, BadSessionsGetOneSentenceAndNoOutput) {
+    const std::string session = folder / "work.json", out = folder / "out.msh";
+    expect_bad_input({"replay", folder / "nothing.json", "-o", out}, "nothing.json");
+    const struct {
+        const char *text, *expected;
+    } cases[] = {
+        {"", "the session is empty"},
+        {"{\"action\": \"flip\"}\n", "before it opens a mesh"},
+        {"{\"action\": \"open\", \"mesh\": \"gone.msh\"}\n", "gone.msh"},
+        {"\n{\"action\": \"dance\"}\n", "work.json:2: unknown action"},
+        {"{\"action\": \"open\", \"mesh\"", "work.json:1: this is not one whole JSON object"},
+    };
+    for (const auto& [text, expected] : cases) {
+        write(session, text);
+        expect_bad_input({"replay", session, "-o", out}, expected);
+        EXPECT_FALSE(exists(out));
+    }
+    write(session, "{\"action\": \"open\", \"mesh\": \"" + annulus +
+                       "\"}\n{\"action\": \"drag\", \"nodes\": [424242], \"shift\": [1, 0, 0]}\n");
+    expect_bad_input({"replay", session, "-o", out}, "no node 424242");
+    EXPECT_FALSE(exists(out));
+}
+
 TEST_F(CommandLine, FailedCommandLeavesAnExistingOutputAlone) {
     const std::string out = folder / "out.msh", deformation = folder / "d.json";
     write(out, "precious");
