@@ -1,6 +1,8 @@
 /// Ways of looking at a mesh: side by side, shrunk, only the worst.
 
-#include <QLabel>
+#include <QDialog>
+#include <QLineEdit>
+#include <QListWidget>
 #include <QSettings>
 
 #include "tests/gui/drag_under_test.h"
@@ -89,6 +91,31 @@ class LookingTest : public QObject {
         QVERIFY(LookingUnderTest::drawn(test.view().picture(1)) > shrunk);
         test.toggle(CommandId::shrink);
         QVERIFY(LookingUnderTest::drawn(test.view().picture(1)) > 0.95 * whole);
+    }
+
+    void commands_are_found_by_name() {
+        LookingUnderTest test;
+        test.window->action(CommandId::palette)->trigger();
+        auto* words = test.find<QLineEdit>("palette_words");
+        auto* list = test.find<QListWidget>("palette_list");
+        QVERIFY(list->count() > 20);
+        // What cannot run is not offered.
+        QTest::keyClicks(words, QStringLiteral("warp"));
+        for (int row = 0; row < list->count(); ++row)
+            QVERIFY(list->item(row)->data(Qt::UserRole).toInt() != static_cast<int>(CommandId::warp));
+        words->clear();
+        QTest::keyClicks(words, QStringLiteral("gaps"));  // by what it does
+        QCOMPARE(list->count(), 1);
+        QTest::keyClick(words, Qt::Key_Return);
+        QVERIFY(QTest::qWaitFor([&] { return test.window->action(CommandId::shrink)->isChecked(); }));
+        QVERIFY(!test.window->findChild<QDialog*>(QStringLiteral("command_palette")));
+        // Escape runs nothing.
+        test.window->action(CommandId::palette)->trigger();
+        words = test.find<QLineEdit>("palette_words");
+        QTest::keyClicks(words, QStringLiteral("shrink elem"));
+        QTest::keyClick(words, Qt::Key_Escape);
+        QTest::qWait(50);
+        QVERIFY(test.window->action(CommandId::shrink)->isChecked());
     }
 
     void only_the_worst_are_shown() {

@@ -64,6 +64,7 @@ const Command command_list[] = {
     {CommandId::theme_light, CommandMenu::theme, "theme_light", TEXT("&Light"), TEXT("Dark text on light ground"), "", "", true},
     {CommandId::theme_dark, CommandMenu::theme, "theme_dark", TEXT("&Dark"), TEXT("Light text on dark ground"), "", "", true},
     {CommandId::reset_layout, CommandMenu::view, "reset_layout", TEXT("&Reset layout"), TEXT("Put all panels back where they were at first"), "", "", false, true},
+    {CommandId::palette, CommandMenu::help, "palette", TEXT("&Find a command…"), TEXT("Type what you want to do"), "", "Ctrl+K"},
     {CommandId::shortcuts, CommandMenu::help, "shortcuts", TEXT("&Keyboard and mouse"), TEXT("List all shortcuts"), "help", "F1"},
     {CommandId::about, CommandMenu::help, "about", TEXT("&About Curvewright"), TEXT("What this program is"), "", ""},
 };

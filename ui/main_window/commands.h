@@ -65,6 +65,7 @@ enum class CommandId {
     theme_light,
     theme_dark,
     reset_layout,
+    palette,
     shortcuts,
     about,
 };

@@ -14,6 +14,7 @@
 
 #include "ui/document/mesh_text.h"
 #include "ui/document/number_format.h"
+#include "ui/main_window/command_palette.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/banner.h"
 #include "ui/panels/clip_bar.h"
@@ -119,6 +120,7 @@ void MainWindow::connect_commands() {
     on(CommandId::flip, [this] { jobs_.flip(); });
     on(CommandId::stop, [this] { jobs_.runner().cancel(); });
     on(CommandId::reset_layout, &MainWindow::reset_layout);
+    on(CommandId::palette, [this] { (new CommandPalette(actions_, this))->open(); });
     on(CommandId::shortcuts, [this] { show_shortcuts(this); });
     on(CommandId::about, [this] { show_about(this); });
     for (const auto& entry : look_commands)
