@@ -1,6 +1,6 @@
 #pragma once
 
-#include "core/edit/boundary_parts.h"
+#include "core/boundary/boundary_parts.h"
 #include "core/edit/selection.h"
 #include "core/warp/response.h"
 

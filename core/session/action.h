@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "core/deform/deformation.h"
+#include "core/edit/drag.h"
 #include "core/untangle/guaranteed.h"
 #include "core/untangle/signed_angles.h"
 #include "core/untangle/unsigned_angles.h"
 #include "core/warp/incremental.h"
-#include "core/warp/response.h"
 
 namespace curvewright {
 
@@ -53,6 +53,7 @@ struct DragAction {
     Vector3 origin{};  ///< that the motion is about
     AffineMotion motion;
     WarpOptions options;
+    DragRules rules;
 };
 /// Nodes are put somewhere: what cannot be computed again, such as an untangling that was stopped.
 struct PlaceAction {
@@ -69,10 +70,6 @@ struct HistoryAction {
 
 using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, FlipAction, DragAction, PlaceAction,
                             HistoryAction>;
-
-/// The options by which the interior follows a drag: interior nodes that are dragged or pinned are prescribed.
-WarpOptions drag_options(WarpOptions options, const MeshTopology& topology, const std::vector<Index>& dragged,
-                         const std::vector<Index>& pinned);
 
 /// The nodes that differ, as an action.
 PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after);

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
-#include "core/edit/drag.h"
 #include "core/io/deformation_file.h"
 #include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
@@ -56,12 +55,17 @@ Coordinates dragged(const CurvedMesh& mesh, const CurvedMesh& opened, const Drag
                     const TaskContext& context) {
     const MeshTopology& topology = mesh.topology();
     const CurvedMesh& base = opened.shared_topology() == mesh.shared_topology() ? opened : mesh;
-    const DraggedSet set{find_nodes(topology, action.nodes), action.weights};
-    const auto warper = std::make_shared<const Warper>(
-        base, drag_options(action.options, topology, set.nodes, find_nodes(topology, action.pinned)), context);
-    Drag drag(warper, set, action.kind, Eigen::Vector3d(action.origin[0], action.origin[1], action.origin[2]), mesh,
-              nullptr, context);
-    return drag.move(action.motion);
+    const DragSetup setup{{find_nodes(topology, action.nodes), action.weights},
+                          action.kind,
+                          Eigen::Vector3d(action.origin[0], action.origin[1], action.origin[2]),
+                          find_nodes(topology, action.pinned),
+                          action.options,
+                          action.rules};
+    const WarperSource warper_of = [&](const CurvedMesh& of, const WarpOptions& options) {
+        return std::make_shared<const Warper>(of, options, context);
+    };
+    Drag drag(setup, base, mesh, nullptr, warper_of, context);
+    return drag.settled(drag.move(action.motion), warper_of, context);
 }
 
 Coordinates placed(const CurvedMesh& mesh, const PlaceAction& action) {
@@ -72,18 +76,6 @@ Coordinates placed(const CurvedMesh& mesh, const PlaceAction& action) {
 }
 
 }  // namespace
-
-WarpOptions drag_options(WarpOptions options, const MeshTopology& topology, const std::vector<Index>& dragged,
-                         const std::vector<Index>& pinned) {
-    std::vector<Index>& prescribed = options.prescribed_nodes;
-    prescribed.clear();
-    for (const std::vector<Index>* nodes : {&dragged, &pinned})
-        for (const Index node : *nodes)
-            if (topology.is_interior_node(node)) prescribed.push_back(node);
-    std::sort(prescribed.begin(), prescribed.end());
-    prescribed.erase(std::unique(prescribed.begin(), prescribed.end()), prescribed.end());
-    return options;
-}
 
 PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after) {
     PlaceAction action;

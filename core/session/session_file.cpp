@@ -35,16 +35,19 @@ const char* mode_name(BoundaryMode mode) {
     return mode == BoundaryMode::fixed ? "fixed" : mode == BoundaryMode::slide ? "slide" : "free";
 }
 
+Json boundary_json(const BoundaryRules& rules) {
+    Json boundary = Json::array({mode_name(rules.otherwise)});
+    for (const auto& rule : rules.groups) boundary.push_back(fmt::format("{}={}", rule.group, mode_name(rule.mode)));
+    return boundary;
+}
+
 Json untangle_json(const GuaranteedOptions& options) {
-    Json boundary = Json::array({mode_name(options.boundary.otherwise)});
-    for (const auto& rule : options.boundary.groups)
-        boundary.push_back(fmt::format("{}={}", rule.group, mode_name(rule.mode)));
     return {{"action", "untangle"},
             {"method", "guaranteed"},
             {"improve", options.improves},
             {"target", options.target},
             {"shape_floor", options.shape_floor},
-            {"boundary", std::move(boundary)}};
+            {"boundary", boundary_json(options.boundary)}};
 }
 
 Json untangle_json(const SignedAngleOptions& options) {
@@ -105,6 +108,8 @@ Json to_json(const Action& action) {
                            json["origin"] = its.origin;
                        }
                        json.update(weights_json(its.options));
+                       if (!its.rules.boundary.is_all_fixed()) json["boundary"] = boundary_json(its.rules.boundary);
+                       if (its.rules.solves_anew) json["solves_anew"] = true;
                        return json;
                    },
                    [](const PlaceAction& its) -> Json {
@@ -238,6 +243,19 @@ class ActionReader {
         increments.smallest_step = its.number("smallest_step", increments.smallest_step);
         return action;
     }
+    BoundaryRules read_boundary() const {
+        BoundaryRules rules;
+        if (!has("boundary")) return rules;
+        for (const Json& rule : list("boundary")) {
+            if (!rule.is_string()) fail(fmt::format("\"boundary\" must be of texts, not {}.", brief(rule)));
+            try {
+                rules.add(rule.get<std::string>());
+            } catch (const InvalidInput& problem) {
+                fail(problem.what());
+            }
+        }
+        return rules;
+    }
     UntangleOptions read_untangle() const {
         const std::string method = text("method");
         if (method == "guaranteed") {
@@ -245,15 +263,7 @@ class ActionReader {
             options.improves = flag("improve", options.improves);
             options.target = number("target", options.target);
             options.shape_floor = number("shape_floor", options.shape_floor);
-            if (has("boundary"))
-                for (const Json& rule : list("boundary")) {
-                    if (!rule.is_string()) fail(fmt::format("\"boundary\" must be of texts, not {}.", brief(rule)));
-                    try {
-                        options.boundary.add(rule.get<std::string>());
-                    } catch (const InvalidInput& problem) {
-                        fail(problem.what());
-                    }
-                }
+            options.boundary = read_boundary();
             return options;
         }
         if (method == "signed-angle") {
@@ -298,6 +308,7 @@ class ActionReader {
             action.origin = vector_of(at("origin"), "origin");
         }
         action.options = read_weights();
+        action.rules = {read_boundary(), flag("solves_anew", false)};
         return action;
     }
     PlaceAction read_place() const {

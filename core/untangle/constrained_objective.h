@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "core/untangle/boundary_shape.h"
+#include "core/boundary/boundary_shape.h"
 #include "core/untangle/distortion.h"
 
 namespace curvewright {

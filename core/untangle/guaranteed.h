@@ -5,7 +5,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
-#include "core/untangle/boundary_rules.h"
+#include "core/boundary/boundary_rules.h"
 #include "core/untangle/observer.h"
 
 namespace curvewright {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/quality/quality.h"
-#include "core/untangle/boundary_shape.h"
+#include "core/boundary/boundary_shape.h"
 #include "core/untangle/distortion.h"
 #include "core/untangle/standing.h"
 

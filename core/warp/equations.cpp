@@ -109,9 +109,10 @@ Numbering number_nodes(const CurvedMesh& mesh, const std::vector<bool>& is_given
             }
             if (condensed.size() > before) group_sizes.push_back(static_cast<Index>(condensed.size() - before));
         }
-    for (const Index node : topology.interior_nodes())
-        if (!is_given[static_cast<std::size_t>(node)] && !is_condensed[static_cast<std::size_t>(node)])
-            numbering.nodes.push_back(node);
+    for (const std::vector<Index>* nodes : {&topology.interior_nodes(), &topology.boundary_nodes()})
+        for (const Index node : *nodes)
+            if (!is_given[static_cast<std::size_t>(node)] && !is_condensed[static_cast<std::size_t>(node)])
+                numbering.nodes.push_back(node);
     sort_along_curve(mesh, numbering.nodes);
     numbering.sweep = order_by_stages(topology, numbering.nodes);
     numbering.solved = static_cast<Index>(numbering.nodes.size());

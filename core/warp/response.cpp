@@ -38,42 +38,25 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
     : ResponseField(warper, set, kind, origin, warper.mesh().coordinates(), context) {}
 
 ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind,
-                             const Eigen::Vector3d& origin, const Coordinates& start, const TaskContext& context)
+                             const Eigen::Vector3d& origin, const Coordinates& start, const TaskContext& context,
+                             const BoundaryFollowing& following)
     : dim_(warper.mesh().topology().dimension()),
       kind_(kind),
       origin_(origin),
-      is_vector_(warper.fields_per_motion() > 1),
       node_count_(warper.mesh().topology().node_count()) {
-    const CurvedMesh& mesh = warper.mesh();
-    const Index nodes = mesh.topology().node_count();
+    const Index nodes = node_count_;
     if (start.rows() != nodes)
         throw InvalidInput(fmt::format("The positions are {} rows; the mesh has {} nodes.", start.rows(), nodes));
     if (!set.weights.empty() && set.weights.size() != set.nodes.size())
         throw InvalidInput(
             fmt::format("The dragged set has {} nodes and {} weights.", set.nodes.size(), set.weights.size()));
-    // Functions of the position that a motion is made of: the weight, and the weight times each coordinate.
-    const int functions = kind == ResponseKind::translation ? 1 : dim_ + 1;
-    const int directions = is_vector_ ? dim_ : 1;
-    MultiVector motions = MultiVector::Zero(nodes, functions * directions * directions);
-    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
-        const Index node = set.nodes[i];
-        const auto& given = warper.given_nodes();
-        if (!std::binary_search(given.begin(), given.end(), node))
-            throw InvalidInput(
-                node >= 0 && node < nodes
-                    ? fmt::format("Node {} cannot be dragged: it lies inside the mesh and its motion is not given.",
-                                  mesh.topology().node_tag(node).value)
-                    : fmt::format("There is no node at position {}; the mesh has {} nodes.", node, nodes));
-        const double weight = set.weights.empty() ? 1.0 : set.weights[i];
-        if (!std::isfinite(weight))
-            throw InvalidInput(
-                fmt::format("The weight of the dragged node {} is not finite.", mesh.topology().node_tag(node).value));
-        for (int f = 0; f < functions; ++f) {
-            const double value = f == 0 ? weight : weight * (start(node, f - 1) - origin[f - 1]);
-            // Motion f along direction a: column a of its own group of columns.
-            for (int a = 0; a < directions; ++a) motions(node, (f * directions + a) * directions + a) = value;
-        }
-    }
+    // A projection mixes the directions.
+    const bool has_projections =
+        std::any_of(following.projections.begin(), following.projections.end(),
+                    [](const Eigen::Matrix3d& projection) { return !projection.isIdentity(0.0); });
+    is_vector_ = warper.fields_per_motion() > 1 || has_projections;
+    MultiVector motions = dragged_motions(warper, set, start, is_vector_);
+    if (!following.nodes.empty()) add_following(following, set, start, motions, context);
     SolveReport report;
     const MultiVector response = warper.extend(motions, report, context);
     for (Index node = 0; node < nodes; ++node)
@@ -81,6 +64,68 @@ ResponseField::ResponseField(const Warper& warper, const DraggedSet& set, Respon
     fields_.resize(static_cast<Eigen::Index>(moving_.size()), response.cols());
     for (std::size_t i = 0; i < moving_.size(); ++i)
         fields_.row(static_cast<Eigen::Index>(i)) = response.row(moving_[i]);
+}
+
+/// Functions of the position that a motion is made of, at the dragged nodes: the weight, and the weight times each
+/// coordinate. nodes × functions, or with vectors nodes × (functions · dimension²): motion f along direction a is
+/// column a of its own group of columns.
+MultiVector ResponseField::dragged_motions(const Warper& warper, const DraggedSet& set, const Coordinates& start,
+                                           bool is_vector) const {
+    const MeshTopology& topology = warper.mesh().topology();
+    const int functions = kind_ == ResponseKind::translation ? 1 : dim_ + 1;
+    const int directions = is_vector ? dim_ : 1;
+    MultiVector motions = MultiVector::Zero(node_count_, functions * directions * directions);
+    for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        const Index node = set.nodes[i];
+        const auto& given = warper.given_nodes();
+        if (!std::binary_search(given.begin(), given.end(), node))
+            throw InvalidInput(
+                node >= 0 && node < node_count_
+                    ? fmt::format("Node {} cannot be dragged: its motion is not given, it follows others.",
+                                  topology.node_tag(node).value)
+                    : fmt::format("There is no node at position {}; the mesh has {} nodes.", node, node_count_));
+        const double weight = set.weights.empty() ? 1.0 : set.weights[i];
+        if (!std::isfinite(weight))
+            throw InvalidInput(
+                fmt::format("The weight of the dragged node {} is not finite.", topology.node_tag(node).value));
+        for (int f = 0; f < functions; ++f) {
+            const double value = f == 0 ? weight : weight * (start(node, f - 1) - origin_[f - 1]);
+            for (int a = 0; a < directions; ++a) motions(node, (f * directions + a) * directions + a) = value;
+        }
+    }
+    return motions;
+}
+
+/// Adds how the following nodes move: as their own warper says, projected.
+void ResponseField::add_following(const BoundaryFollowing& following, const DraggedSet& set, const Coordinates& start,
+                                  MultiVector& motions, const TaskContext& context) const {
+    const Warper& warper = *following.warper;
+    if (following.projections.size() != following.nodes.size() ||
+        warper.mesh().topology().node_count() != node_count_)
+        throw InvalidInput("The following nodes of the boundary do not belong to the mesh that is dragged.");
+    const bool is_elastic = warper.fields_per_motion() > 1;
+    SolveReport report;
+    const MultiVector response =
+        warper.extend(dragged_motions(warper, set, start, is_elastic), report, context);
+    const int functions = kind_ == ResponseKind::translation ? 1 : dim_ + 1;
+    for (std::size_t i = 0; i < following.nodes.size(); ++i) {
+        const Index node = following.nodes[i];
+        if (!is_vector_) {
+            motions.row(node) = response.row(node);
+            continue;
+        }
+        const Eigen::MatrixXd projection = following.projections[i].topLeftCorner(dim_, dim_);
+        for (int f = 0; f < functions; ++f)
+            for (int a = 0; a < dim_; ++a) {
+                const Eigen::Index group = static_cast<Eigen::Index>(f * dim_ + a) * dim_;
+                Eigen::VectorXd moved = Eigen::VectorXd::Zero(dim_);
+                if (is_elastic)
+                    moved = response.row(node).segment(group, dim_).transpose();
+                else
+                    moved[a] = response(node, f);
+                motions.row(node).segment(group, dim_) = (projection * moved).transpose();
+            }
+    }
 }
 
 namespace {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "core/base/task.h"
@@ -34,6 +35,15 @@ enum class ResponseKind {
     affine,       ///< any affine motion about the origin
 };
 
+/// Boundary nodes that are not dragged but follow what is (see WarpOptions::following_nodes), each as far as it may.
+struct BoundaryFollowing {
+    /// Made with them as following_nodes, of the same state of the mesh and otherwise the same options as the warper.
+    std::shared_ptr<const Warper> warper;
+    std::vector<Index> nodes;
+    /// One per node, applied to how it would follow: a projection onto the tangents that it keeps to, or the identity.
+    std::vector<Eigen::Matrix3d> projections;
+};
+
 /// How every node follows the motion of a dragged set. The interior's displacement is a linear function of the
 /// boundary's, so one solve at the beginning of a drag (1 right-hand side for translations, dimension + 1 for affine
 /// motions; times the dimension for elastic) leaves a few multiplications per node and frame.
@@ -45,8 +55,9 @@ class ResponseField {
                   const Eigen::Vector3d& origin = Eigen::Vector3d::Zero(), const TaskContext& context = {});
     /// The same for a motion that begins at another state of the mesh than the one that the weights are of. start:
     /// nodes × 3, the positions that apply() will be given.
+    /// following: empty if the rest of the boundary stays.
     ResponseField(const Warper& warper, const DraggedSet& set, ResponseKind kind, const Eigen::Vector3d& origin,
-                  const Coordinates& start, const TaskContext& context = {});
+                  const Coordinates& start, const TaskContext& context = {}, const BoundaryFollowing& following = {});
 
     /// One frame: writes start + the response to the motion into the rows of the moving nodes of result; the other rows
     /// stay, so that the array of one frame serves the next. A result of another size becomes a copy of start first.
@@ -60,10 +71,14 @@ class ResponseField {
     const std::vector<Index>& moving_nodes() const { return moving_; }
 
   private:
+    MultiVector dragged_motions(const Warper& warper, const DraggedSet& set, const Coordinates& start, bool is_vector) const;
+    void add_following(const BoundaryFollowing& following, const DraggedSet& set, const Coordinates& start,
+                       MultiVector& motions, const TaskContext& context) const;
+
     int dim_ = 2;
     ResponseKind kind_;
     Eigen::Vector3d origin_;
-    bool is_vector_ = false;  ///< elastic: a field per direction of the motion
+    bool is_vector_ = false;  ///< elastic, or sliding boundaries: a field per direction of the motion
     Index node_count_ = 0;
     std::vector<Index> moving_;
     /// moving nodes × fields. Scalar: s, then s·(x - origin)_k per direction k. Vector: for each of these and each

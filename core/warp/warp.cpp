@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/boundary/boundary_parts.h"
 #include "core/warp/elasticity.h"
 #include "core/warp/equations.h"
 
@@ -92,31 +93,33 @@ Eigen::VectorXd symmetric_scale(const Numbering& numbering, const NeighbourSets&
     return scale;
 }
 
-/// The affine function of the position that fits values at some nodes best, by least squares.
+/// The affine function of the position that fits values at some nodes best, by least squares; or only the constant that
+/// does.
 class AffineFit {
   public:
     AffineFit() = default;
-    AffineFit(const CurvedMesh& mesh, const std::vector<Index>& nodes) : dim_(mesh.topology().dimension()) {
+    AffineFit(const CurvedMesh& mesh, const std::vector<Index>& nodes, bool is_constant)
+        : slopes_(is_constant ? 0 : mesh.topology().dimension()) {
         const Eigen::Matrix<double, 2, 3> box = bounding_box(mesh);
         center_ = box.colwise().mean();
         size_ = std::max(std::numeric_limits<double>::min(), (box.row(1) - box.row(0)).maxCoeff());
         orthogonal_.compute(evaluate(mesh, nodes));
     }
-    /// values: one row per node. Returns (dimension + 1) × k.
+    /// values: one row per node. Returns (slopes + 1) × k.
     Eigen::MatrixXd fit(const Eigen::MatrixXd& values) const { return orthogonal_.solve(values); }
-    /// The basis functions at nodes: nodes × (dimension + 1).
+    /// The basis functions at nodes: nodes × (slopes + 1).
     Eigen::MatrixXd evaluate(const CurvedMesh& mesh, const std::vector<Index>& nodes) const {
-        Eigen::MatrixXd basis(static_cast<Eigen::Index>(nodes.size()), dim_ + 1);
+        Eigen::MatrixXd basis(static_cast<Eigen::Index>(nodes.size()), slopes_ + 1);
         for (Eigen::Index i = 0; i < basis.rows(); ++i) {
-            basis.row(i).head(dim_) =
-                (mesh.coordinates().row(nodes[static_cast<std::size_t>(i)]) - center_).head(dim_) / size_;
-            basis(i, dim_) = 1.0;
+            basis.row(i).head(slopes_) =
+                (mesh.coordinates().row(nodes[static_cast<std::size_t>(i)]) - center_).head(slopes_) / size_;
+            basis(i, slopes_) = 1.0;
         }
         return basis;
     }
 
   private:
-    int dim_ = 2;
+    int slopes_ = 2;
     Eigen::RowVector3d center_;
     double size_ = 1.0;
     Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> orthogonal_;
@@ -130,7 +133,7 @@ struct Warper::Data {
     CurvedMesh mesh;
     WarpOptions options;
     WarpReport report;
-    std::vector<Index> given_nodes;
+    std::vector<Index> given_nodes, following_nodes;
     Numbering numbering;
     int block = 1;
     BlockMatrix coupling;
@@ -156,7 +159,14 @@ BlockMatrix Warper::Data::equations(CoarseSpace& coarse, const TaskContext& cont
                                       sets.nodes.size(), std::numeric_limits<int>::max()));
     report.neighbours_seconds = watch.seconds();
     watch = {};
-    const WeightTable table = compute_weights(mesh, sets, weighting_of(options), context);
+    Coordinates mirrors;
+    if (!following_nodes.empty()) {
+        const BoundaryParts boundary(mesh);
+        mirrors = Coordinates::Zero(mesh.topology().node_count(), 3);
+        for (const Index node : following_nodes)
+            mirrors.row(node) = boundary.normal(mesh.coordinates(), node).transpose();
+    }
+    const WeightTable table = compute_weights(mesh, sets, weighting_of(options), context, mirrors);
     for (std::size_t i = 0; i < sets.centers.size(); ++i) {
         if (table.status[i] == PatchStatus::outside_hull) report.outside_hull.push_back(sets.centers[i]);
         if (table.status[i] == PatchStatus::degenerate) report.degenerate.push_back(sets.centers[i]);
@@ -179,6 +189,14 @@ void Warper::Data::set_up(const TaskContext& context) {
     const MeshTopology& topology = mesh.topology();
     std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
     for (const Index node : topology.boundary_nodes()) is_given[static_cast<std::size_t>(node)] = true;
+    for (const Index node : options.following_nodes) {
+        if (node < 0 || node >= topology.node_count())
+            throw InvalidInput(fmt::format("There is no node at position {} to follow; the mesh has {} nodes.", node,
+                                           topology.node_count()));
+        if (!topology.is_boundary_node(node) || !is_given[static_cast<std::size_t>(node)]) continue;
+        is_given[static_cast<std::size_t>(node)] = false;
+        following_nodes.push_back(node);
+    }
     for (const Index node : options.prescribed_nodes) {
         if (node < 0 || node >= topology.node_count())
             throw InvalidInput(fmt::format("There is no node at position {} to be prescribed; the mesh has {} nodes.",
@@ -187,6 +205,8 @@ void Warper::Data::set_up(const TaskContext& context) {
     }
     for (Index node = 0; node < topology.node_count(); ++node)
         if (is_given[static_cast<std::size_t>(node)]) given_nodes.push_back(node);
+    if (given_nodes.empty())
+        throw InvalidInput("All nodes of the boundary are to follow; at least one whose position is given was expected.");
     const bool is_elastic = options.weighting == Weighting::elastic;
     block = is_elastic ? topology.dimension() : 1;
     // Sets with all nodes of an element have room for what condensation adds; smaller ones have not.
@@ -198,7 +218,8 @@ void Warper::Data::set_up(const TaskContext& context) {
         report.solver_note = "The mesh has no interior nodes; only its boundary moves.";
         return;
     }
-    affine = AffineFit(mesh, given_nodes);
+    // Following nodes move by what happens along the boundary: of all affine motions they take part in translations only.
+    affine = AffineFit(mesh, given_nodes, !following_nodes.empty());
     LinearSystem system;
     BlockMatrix all = equations(system.coarse, context);
     const Stopwatch watch;

@@ -49,6 +49,10 @@ struct WarpOptions {
     /// a deformation moves (see prescribed_interior_nodes in core/deform). Any order; boundary nodes among them are
     /// ignored.
     std::vector<Index> prescribed_nodes;
+    /// Boundary nodes whose positions are not given: they follow as if the mesh went on as its mirror image behind the
+    /// boundary, so that only what their neighbours do along the boundary counts (elastic: no forces act on them). Any
+    /// order; interior nodes among them are ignored. At least one boundary or prescribed node must be left.
+    std::vector<Index> following_nodes;
     SolverChoice solver = SolverChoice::automatic;
     Ordering ordering = Ordering::nested_dissection;
     /// Residual of the linear system, relative to its right-hand side, at which the iterative solver stops.
@@ -59,7 +63,7 @@ struct WarpOptions {
 };
 
 struct WarpReport {
-    Index interior_nodes = 0;   ///< that followed: without the prescribed ones
+    Index interior_nodes = 0;   ///< that followed: without the prescribed ones, with the following ones of the boundary
     Index condensed_nodes = 0;  ///< of them eliminated beforehand
     /// Nodes for which convex weights do not exist (not strictly inside the hull of their neighbours); affine weights
     /// were taken for them.
@@ -82,7 +86,7 @@ struct WarpResult {
 /// A mesh made ready to be warped: weights computed, equations set up and factored (or their preconditioner made) once,
 /// for any number of boundary positions. The interior's displacement is a linear function of the boundary's. The affine
 /// motion that fits the boundary's best is applied to the interior as it is, and the equations are solved for the rest
-/// only, so affine motions come out exact whatever the solver's tolerance. Any element shapes, orders 1 to 10; pyramids
+/// only, so affine motions come out exact whatever the solver's tolerance (with following nodes: translations). Any element shapes, orders 1 to 10; pyramids
 /// not with elastic. Immutable; safe to use from several threads at once.
 class Warper {
   public:
@@ -93,7 +97,7 @@ class Warper {
 
     const CurvedMesh& mesh() const;
     const WarpOptions& options() const;
-    /// Boundary nodes and prescribed interior nodes, ascending: those whose motion is given.
+    /// Boundary nodes (without following ones) and prescribed interior nodes, ascending: those whose motion is given.
     const std::vector<Index>& given_nodes() const;
     /// What happened in the constructor; nothing is solved yet.
     const WarpReport& setup_report() const;

@@ -228,8 +228,32 @@ WeightFunction affine_weighting(double distance_power, double sharing_power) {
     };
 }
 
+namespace {
+
+/// The weights of a patch and its image behind the plane with a normal (dimension entries), added up. indices, shared:
+/// of the patch; offsets: neighbours × dimension.
+PatchStatus mirrored_weights(Index center, std::span<const Index> neighbours,
+                             const Eigen::Ref<const Eigen::MatrixXd>& offsets, std::span<const std::uint16_t> shared,
+                             const Eigen::VectorXd& normal, const WeightFunction& weighting,
+                             Eigen::Ref<Eigen::VectorXd> weights) {
+    const Eigen::Index count = offsets.rows();
+    Eigen::MatrixXd both(2 * count, offsets.cols());
+    both.topRows(count) = offsets;
+    both.bottomRows(count) = offsets - 2.0 * (offsets * normal) * normal.transpose();
+    std::vector<Index> twice(neighbours.begin(), neighbours.end());
+    twice.insert(twice.end(), neighbours.begin(), neighbours.end());
+    std::vector<std::uint16_t> shared_twice(shared.begin(), shared.end());
+    shared_twice.insert(shared_twice.end(), shared.begin(), shared.end());
+    Eigen::VectorXd all(2 * count);
+    const PatchStatus status = weighting({center, twice, both, shared_twice}, all);
+    weights = all.head(count) + all.tail(count);
+    return status;
+}
+
+}  // namespace
+
 WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, const WeightFunction& weighting,
-                            const TaskContext& context) {
+                            const TaskContext& context, const Coordinates& mirrors) {
     const auto& interior = sets.centers;
     const int dim = mesh.topology().dimension();
     WeightTable table;
@@ -250,7 +274,11 @@ WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, c
             const Eigen::Map<const Eigen::MatrixXd> offsets(buffer.data(), static_cast<Eigen::Index>(count), dim);
             Eigen::Map<Eigen::VectorXd> weights(table.weights.data() + sets.offsets[i],
                                                 static_cast<Eigen::Index>(count));
-            table.status[i] = weighting({interior[i], neighbours, offsets, sets.shared_elements_of(i)}, weights);
+            if (mirrors.rows() > 0 && !mirrors.row(interior[i]).isZero(0.0))
+                table.status[i] = mirrored_weights(interior[i], neighbours, offsets, sets.shared_elements_of(i),
+                                                   mirrors.row(interior[i]).head(dim).transpose(), weighting, weights);
+            else
+                table.status[i] = weighting({interior[i], neighbours, offsets, sets.shared_elements_of(i)}, weights);
         }
     });
     return table;

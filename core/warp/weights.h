@@ -76,8 +76,11 @@ struct WeightTable {
     std::vector<double> weights;
     std::vector<PatchStatus> status;  ///< per free node
 };
-/// Multi-threaded. Throws what the weighting throws, Cancelled.
+/// mirrors: per node of the mesh a unit normal, or zero, or empty for all zero. The patch of a node with a normal is
+/// completed by its mirror image behind the plane through the node; the weight of a neighbour is then what it and its
+/// image get together, so that the weights reproduce the node's place along the plane only. Multi-threaded. Throws what
+/// the weighting throws, Cancelled.
 WeightTable compute_weights(const CurvedMesh& mesh, const NeighbourSets& sets, const WeightFunction& weighting,
-                            const TaskContext& context = {});
+                            const TaskContext& context = {}, const Coordinates& mirrors = {});
 
 }  // namespace curvewright

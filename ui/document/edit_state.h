@@ -5,7 +5,8 @@
 
 #include <QObject>
 
-#include "core/edit/boundary_parts.h"
+#include "core/boundary/boundary_parts.h"
+#include "core/edit/drag.h"
 #include "core/edit/selection.h"
 #include "core/edit/soft_selection.h"
 #include "ui/document/mesh_document.h"
@@ -60,6 +61,7 @@ struct EditSettings {
     DragDirection direction = DragDirection::view_plane;
     SnapSettings snap;
     SelectSettings select;
+    DragRules rules;  ///< what the rest of the boundary does, and how a drag ends
 };
 
 /// The position that a point snaps to. pre: target is not `nothing`. A point for which the projection is undefined (the

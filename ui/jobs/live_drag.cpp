@@ -20,7 +20,7 @@ constexpr double longest_wait = 0.02;  ///< seconds
 bool is_same(const WarpOptions& a, const WarpOptions& b) {
     return a.weighting == b.weighting && a.distance_power == b.distance_power && a.sharing_power == b.sharing_power &&
            a.neighbours == b.neighbours && a.outside_hull == b.outside_hull && a.poisson_ratio == b.poisson_ratio &&
-           a.stiffening == b.stiffening && a.prescribed_nodes == b.prescribed_nodes && a.solver == b.solver;
+           a.stiffening == b.stiffening && a.prescribed_nodes == b.prescribed_nodes && a.following_nodes == b.following_nodes && a.solver == b.solver;
 }
 
 bool is_rest(const AffineMotion& motion) {
@@ -56,7 +56,7 @@ class LiveDrag::Worker {
     /// Tasks only: the weights of a mesh.
     std::shared_ptr<const Warper> weights(const CurvedMesh& mesh, const WarpOptions& options,
                                           const TaskContext& context) {
-        // Two: with pinned or dragged interior nodes, and without.
+        // A few: with pinned or dragged interior nodes and without, with a boundary that follows, of the present mesh.
         const auto known = std::find_if(warpers_.begin(), warpers_.end(), [&](const auto& warper) {
             return warper->mesh().shared_topology() == mesh.shared_topology() && is_same(warper->options(), options) &&
                    warper->mesh().coordinates() == mesh.coordinates();
@@ -67,9 +67,16 @@ class LiveDrag::Worker {
         }
         std::erase_if(warpers_,
                       [&](const auto& warper) { return warper->mesh().shared_topology() != mesh.shared_topology(); });
-        if (warpers_.size() > 1) warpers_.pop_back();
+        constexpr std::size_t most_kept = 3;
+        if (warpers_.size() >= most_kept) warpers_.pop_back();
         warpers_.insert(warpers_.begin(), std::make_shared<const Warper>(mesh, options, context));
         return warpers_.front();
+    }
+
+    WarperSource source(const TaskContext& context) {
+        return [this, context](const CurvedMesh& mesh, const WarpOptions& options) {
+            return weights(mesh, options, context);
+        };
     }
 
   private:
@@ -115,6 +122,10 @@ void LiveDrag::set_pinned(const std::vector<Index>& pinned) {
     pinned_ = pinned;
 }
 
+void LiveDrag::set_rules(const DragRules& rules) {
+    rules_ = rules;
+}
+
 namespace {
 
 /// The mesh whose weights a drag takes: the one that was opened, so that the way back leads back. After renumbering the
@@ -145,6 +156,8 @@ void LiveDrag::set_phase(Phase phase) {
 
 void LiveDrag::begin(const DragRequest& request) {
     start_ = document_.state();
+    used_rules_ = rules_;
+    used_pins_ = pinned_;
     motion_ = {};
     report_ = start_.quality ? std::make_shared<QualityReport>(*start_.quality) : nullptr;
     finishes_ = false;
@@ -164,15 +177,14 @@ void LiveDrag::set_up(const DragRequest& request) {
     is_certifying_ = is_newer_ = false;
     const int generation = ++generation_;
     set_phase(Phase::preparing);
-    const WarpOptions options = drag_options(options_, start_.mesh->topology(), request.set.nodes, pinned_);
-    worker_->start([this, generation, options, worker = worker_.get(), base = base_of(document_), start = start_,
-                    request](const TaskContext& context) {
+    const DragSetup setup{request.set, request.kind, request.origin, used_pins_, options_, used_rules_};
+    worker_->start([this, generation, setup, worker = worker_.get(), base = base_of(document_),
+                    start = start_](const TaskContext& context) {
         std::shared_ptr<Drag> drag;
         QString problem;
         try {
-            const auto warper = worker->weights(*base, options, context);
-            drag = std::make_shared<Drag>(warper, request.set, request.kind, request.origin, *start.mesh, start.quality,
-                                          context);
+            const TaskContext telling = reporting(context, generation);
+            drag = std::make_shared<Drag>(setup, *base, *start.mesh, start.quality, worker->source(telling), telling);
         } catch (const Cancelled&) {
             return;
         } catch (const Error& error) {
@@ -193,7 +205,25 @@ void LiveDrag::set_up(const DragRequest& request) {
     });
 }
 
+TaskContext LiveDrag::reporting(const TaskContext& context, int generation) {
+    // A few times a second is enough for people.
+    auto last = std::make_shared<Stopwatch>();
+    return {context.stop, [this, generation, last](std::string_view phase, double fraction) {
+                constexpr double pause = 0.1;
+                if (last->seconds() < pause) return;
+                *last = {};
+                QMetaObject::invokeMethod(
+                    this,
+                    [this, generation, text = QString::fromUtf8(phase.data(), static_cast<qsizetype>(phase.size())),
+                     fraction] {
+                        if (generation == generation_) emit working(text, fraction);
+                    },
+                    Qt::QueuedConnection);
+            }};
+}
+
 void LiveDrag::receive(std::shared_ptr<Drag> drag) {
+    emit working({}, 1.0);
     drag_ = std::move(drag);
     set_phase(Phase::live);
     if (finishes_) {
@@ -226,15 +256,15 @@ void LiveDrag::step() {
     } else {
         emit frame(positions, nullptr);
         is_newer_ = true;
-        if (!is_certifying_) certify_behind();
+        if (!is_certifying_) certify_behind(positions);
     }
 }
 
-void LiveDrag::certify_behind() {
+void LiveDrag::certify_behind(const Coordinates& at) {
     is_certifying_ = true;
     is_newer_ = false;
     worker_->start([this, generation = generation_, drag = drag_, report = report_,
-                    positions = drag_->positions()](const TaskContext& context) {
+                    positions = at](const TaskContext& context) {
         const Stopwatch watch;
         try {
             drag->certify(positions, *report, context);
@@ -249,7 +279,7 @@ void LiveDrag::certify_behind() {
                 certify_seconds_ = seconds;
                 if (finishes_) return keep(report);
                 emit frame(drag_->positions(), report.get());
-                if (is_newer_) certify_behind();
+                if (is_newer_) certify_behind(drag_->positions());
             },
             Qt::QueuedConnection);
     });
@@ -262,19 +292,47 @@ void LiveDrag::finish() {
     if (phase_ != Phase::live) return;  // receive() comes back here
     set_phase(Phase::finishing);
     const Coordinates& positions = drag_->move(motion_);
-    emit frame(positions, nullptr);
-    if (!report_) return keep(nullptr);
     // Whatever runs is of older positions.
-    ++generation_;
+    const int generation = ++generation_;
     worker_->cancel();
     // A report whose certification was stopped is not to be used again.
     if (is_certifying_) report_ = std::make_shared<QualityReport>(*start_.quality);
-    certify_behind();
+    if (!drag_->needs_settling()) return finish_at(positions);
+    emit frame(positions, nullptr);
+    worker_->start([this, generation, drag = drag_, positions, worker = worker_.get()](const TaskContext& context) {
+        auto end = std::make_shared<Coordinates>();
+        QString problem;
+        try {
+            const TaskContext telling = reporting(context, generation);
+            *end = drag->settled(positions, worker->source(telling), telling);
+        } catch (const Cancelled&) {
+            return;
+        } catch (const Error& error) {
+            problem = QString::fromUtf8(error.what());
+        }
+        QMetaObject::invokeMethod(
+            this,
+            [this, generation, end, problem] {
+                if (generation != generation_) return;
+                emit working({}, 1.0);
+                if (problem.isEmpty()) return finish_at(*end);
+                cancel();
+                emit failed(problem);
+            },
+            Qt::QueuedConnection);
+    });
+}
+
+void LiveDrag::finish_at(const Coordinates& positions) {
+    end_ = positions;
+    emit frame(end_, nullptr);
+    if (!report_) return keep(nullptr);
+    certify_behind(end_);
 }
 
 void LiveDrag::keep(std::shared_ptr<QualityReport> report) {
     MeshState state;
-    state.mesh = std::make_shared<const CurvedMesh>(start_.mesh->with_coordinates(drag_->positions()));
+    state.mesh = std::make_shared<const CurvedMesh>(start_.mesh->with_coordinates(end_));
     state.quality = std::move(report);
     state.quality_note = start_.quality_note;
     state.applied_deformations = start_.applied_deformations;
@@ -282,8 +340,8 @@ void LiveDrag::keep(std::shared_ptr<QualityReport> report) {
     DragAction action;
     for (const Index node : request_.set.nodes) action.nodes.push_back(topology.node_tag(node));
     action.weights = request_.set.weights;
-    for (const Index node : pinned_)
-        if (topology.is_interior_node(node)) action.pinned.push_back(topology.node_tag(node));
+    for (const Index node : used_pins_) action.pinned.push_back(topology.node_tag(node));
+    action.rules = used_rules_;
     action.kind = request_.kind;
     action.origin = {request_.origin[0], request_.origin[1], request_.origin[2]};
     action.motion = motion_;
@@ -303,6 +361,7 @@ void LiveDrag::close(bool is_kept) {
     drag_.reset();
     report_.reset();
     start_ = {};
+    end_.resize(0, 3);
     finishes_ = is_certifying_ = is_newer_ = false;
     set_phase(Phase::idle);
     emit ended(is_kept);

@@ -34,12 +34,16 @@ class LiveDrag : public QObject {
     void set_weights(const WarpOptions& options);
     /// Interior nodes that stay, from the next drag on.
     void set_pinned(const std::vector<Index>& pinned);
+    /// What the rest of the boundary does and how a drag ends, from the next drag on.
+    void set_rules(const DragRules& rules);
     /// Computes the weights of the open mesh in the background, so that the first drag need not wait for them.
     void prepare();
 
     bool is_active() const { return phase_ != Phase::idle; }
     /// The response is there: what is seen is live.
     bool is_live() const { return phase_ == Phase::live; }
+    /// The hand has let go, and the end is being computed.
+    bool is_finishing() const { return phase_ == Phase::finishing; }
 
     /// Takes hold. pre: document has a mesh, not active. In the course of a drag: changes what is in hand; the motion
     /// stays.
@@ -59,6 +63,9 @@ class LiveDrag : public QObject {
     /// The drag is over; is_kept: it becomes a step of the history now. Otherwise the document's state is to be shown.
     void ended(bool is_kept);
     void failed(const QString& message);
+    /// What is being computed, and the fraction of it that is done: before the drag is live, and at its end if that is
+    /// more than the last frame. "" = nothing any more.
+    void working(const QString& phase, double fraction);
 
   private:
     enum class Phase { idle, preparing, live, finishing };
@@ -68,13 +75,17 @@ class LiveDrag : public QObject {
     void set_up(const DragRequest& request);
     void receive(std::shared_ptr<Drag> drag);
     void step();
-    void certify_behind();
+    void certify_behind(const Coordinates& positions);
+    void finish_at(const Coordinates& positions);
     void keep(std::shared_ptr<QualityReport> report);
+    /// For a task of the worker: tells how far it is.
+    TaskContext reporting(const TaskContext& context, int generation);
     void close(bool is_kept);
 
     MeshDocument& document_;
     WarpOptions options_;
     std::vector<Index> pinned_;
+    DragRules rules_;
     std::unique_ptr<Worker> worker_;
 
     Phase phase_ = Phase::idle;
@@ -85,6 +96,9 @@ class LiveDrag : public QObject {
     std::shared_ptr<Drag> drag_;
     std::shared_ptr<QualityReport> report_;
     AffineMotion motion_;
+    DragRules used_rules_;          ///< of the drag that is active
+    std::vector<Index> used_pins_;  ///< of the drag that is active
+    Coordinates end_;               ///< where it ends, while finishing
     double certify_seconds_ = 0.0;  ///< what the last certification took
 };
 

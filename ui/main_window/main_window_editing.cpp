@@ -64,6 +64,12 @@ void MainWindow::connect_editing() {
     });
     connect(&drag_, &LiveDrag::failed, this,
             [this](const QString& message) { dialogs_.show_error(this, tr("Dragging failed"), message); });
+    connect(&drag_, &LiveDrag::working, this, [this](const QString& phase, double fraction) {
+        if (phase.isEmpty())
+            update_hint();
+        else
+            hint_->setText(tr("%1, %2 %. Esc: put back").arg(phase).arg(static_cast<int>(100.0 * fraction)));
+    });
     connect(view_, &MeshView::pointer_moved, pointer_tag_, &PointerTag::follow);
     const auto refresh = [this] {
         if (Tool* tool = current_tool()) tool->refresh();
@@ -74,6 +80,7 @@ void MainWindow::connect_editing() {
     connect(&edit_, &EditState::spokes_changed, this, refresh);
     connect(&edit_, &EditState::settings_changed, this, [this, refresh] {
         actions_[CommandId::soft]->setChecked(edit_.settings().is_soft);
+        drag_.set_rules(edit_.settings().rules);
         refresh();
     });
     connect(&edit_, &EditState::pins_changed, this, [this] { drag_.set_pinned(edit_.pins()); });

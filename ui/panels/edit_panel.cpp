@@ -9,6 +9,7 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+#include "ui/panels/boundary_field.h"
 #include "ui/panels/form_fields.h"
 #include "ui/panels/widgets.h"
 
@@ -187,6 +188,19 @@ void EditPanel::make_fields() {
     center_label_ = make_label(tr("Centre"), "");
     size_label_ = make_label(tr("Radius"), "");
 
+    others_ = new BoundaryField(
+        QStringLiteral("other_boundary"),
+        {tr("What the boundary that is not in hand does."), tr("not one of its nodes moves."),
+         tr("its nodes follow along the boundary as it was when the drag began; corners and feature edges are kept."),
+         tr("its nodes follow like those inside, and the boundary changes its shape."),
+         tr("what each named part of the boundary does.")},
+        this);
+    anew_ = new QCheckBox(tr("New weights when let go"));
+    anew_->setObjectName(QStringLiteral("solves_anew"));
+    anew_->setToolTip(
+        tr("At the end of a drag the interior is solved for once more, with weights of the mesh as it was before it.\n"
+           "Better after large motions; otherwise what is seen in hand is kept, with the weights of the mesh as opened."));
+
     form_ = make_form();
     form_->addRow(tr("Takes"), unit_);
     form_->addRow(soft_);
@@ -199,11 +213,18 @@ void EditPanel::make_fields() {
     form_->addRow(center_label_, center_row_);
     form_->addRow(size_label_, size_);
     form_->addRow(tr("Thickness"), thickness_);
+    others_->add_to(form_, tr("The rest"));
+    form_->addRow(anew_);
     align_labels(form_);
+    connect(others_, &BoundaryField::changed, this, &EditPanel::read_settings);
+    connect(&edit_.document(), &MeshDocument::state_changed, others_, [this] {
+        const auto& mesh = edit_.document().state().mesh;
+        others_->list_groups(mesh ? &mesh->topology() : nullptr);
+    });
 
     for (QComboBox* box : {unit_, falloff_, direction_, snap_})
         connect(box, &QComboBox::currentIndexChanged, this, &EditPanel::read_settings);
-    for (QCheckBox* box : {soft_, along_}) connect(box, &QCheckBox::toggled, this, &EditPanel::read_settings);
+    for (QCheckBox* box : {soft_, along_, anew_}) connect(box, &QCheckBox::toggled, this, &EditPanel::read_settings);
     for (QDoubleSpinBox* box : {radius_, spacing_, size_, thickness_, center_[0], center_[1], center_[2]})
         connect(box, &QDoubleSpinBox::valueChanged, this, &EditPanel::read_settings);
 }
@@ -223,6 +244,7 @@ void EditPanel::show_settings() {
     for (int d = 0; d < 3; ++d) center_[d]->setValue(settings.snap.center[static_cast<std::size_t>(d)]);
     size_->setValue(settings.snap.radius);
     thickness_->setValue(settings.snap.thickness);
+    anew_->setChecked(settings.rules.solves_anew);
     is_showing_ = false;
     show_rows();
 }
@@ -241,6 +263,7 @@ void EditPanel::read_settings() {
     for (int d = 0; d < 3; ++d) settings.snap.center[static_cast<std::size_t>(d)] = center_[d]->value();
     settings.snap.radius = size_->value();
     settings.snap.thickness = thickness_->value();
+    settings.rules = {others_->rules(), anew_->isChecked()};
     edit_.set_settings(settings);
 }
 

@@ -14,6 +14,8 @@ class QPushButton;
 
 namespace curvewright {
 
+class BoundaryField;
+
 /// How the next drag goes: what is taken, how far it reaches, where it may go, what it snaps to; and motions of the
 /// selection by numbers.
 class EditPanel : public QWidget {
@@ -41,6 +43,8 @@ class EditPanel : public QWidget {
     QDoubleSpinBox *radius_ = nullptr, *spacing_ = nullptr, *size_ = nullptr, *thickness_ = nullptr;
     QDoubleSpinBox* center_[3] = {};
     QWidget* center_row_ = nullptr;
+    BoundaryField* others_ = nullptr;
+    QCheckBox* anew_ = nullptr;
     QFormLayout* numbers_form_ = nullptr;
     QComboBox *motion_ = nullptr, *axis_ = nullptr;
     QDoubleSpinBox *numbers_[3] = {}, *angle_ = nullptr;

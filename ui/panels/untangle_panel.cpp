@@ -5,23 +5,14 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
-#include <QHeaderView>
 #include <QSpinBox>
-#include <QTreeWidget>
 #include <QVBoxLayout>
 
+#include "ui/panels/boundary_field.h"
 #include "ui/panels/form_fields.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
-namespace {
-
-constexpr int group_row_height = 36;
-
-enum class BoundaryChoice { fixed, slide, by_group };
-
-}  // namespace
-
 UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Untangle"), QStringLiteral("untangle_button"), parent) {
     make_fields();
@@ -41,25 +32,13 @@ void UntanglePanel::make_fields() {
                      {tr("Unsigned angles"), int(UntangleMethod::unsigned_angles),
                       tr("triangles of order 2 and up, only edges of tangled elements. The simplest method; quick, and "
                          "at a loss where tangling is deep.")}});
-    boundary_ = make_choice(
-        "boundary", tr("What the nodes of the boundary may do."),
-        {{tr("Stays"), int(BoundaryChoice::fixed), tr("not one of them moves.")},
-         {tr("Slides along itself"), int(BoundaryChoice::slide),
-          tr("they move along the boundary as it is; corners and feature edges are kept. Mends elements that nothing "
-             "else "
-             "can, and the shape changes a little.")},
-         {tr("By group"), int(BoundaryChoice::by_group), tr("what each named part of the boundary may do.")}});
-    groups_ = new QTreeWidget;
-    groups_->setObjectName(QStringLiteral("boundary_groups"));
-    groups_->setColumnCount(2);
-    groups_->setHeaderHidden(true);
-    groups_->setRootIsDecorated(false);
-    groups_->setUniformRowHeights(true);
-    groups_->setSelectionMode(QAbstractItemView::NoSelection);
-    groups_->header()->setStretchLastSection(false);
-    groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
-    groups_->header()->setSectionResizeMode(1, QHeaderView::Fixed);
-    groups_->header()->resizeSection(1, 110);
+    boundary_ = new BoundaryField(
+        QStringLiteral("boundary"),
+        {tr("What the nodes of the boundary may do."), tr("not one of them moves."),
+         tr("they move along the boundary as it is; corners and feature edges are kept. Mends elements that nothing "
+            "else can, and the shape changes a little."),
+         QString(), tr("what each named part of the boundary may do.")},
+        this);
     improves_ = new QCheckBox(tr("Improve the worst elements afterwards"));
     improves_->setObjectName(QStringLiteral("improves"));
     improves_->setChecked(guaranteed.improves);
@@ -102,8 +81,7 @@ void UntanglePanel::make_fields() {
 
     form_ = make_form();
     form_->addRow(tr("Method"), method_);
-    form_->addRow(tr("Boundary"), boundary_);
-    form_->addRow(groups_);
+    boundary_->add_to(form_, tr("Boundary"));
     form_->addRow(improves_);
     form_->addRow(tr("Target"), target_);
     form_->addRow(chooses_beta_);
@@ -114,71 +92,29 @@ void UntanglePanel::make_fields() {
     align_labels(form_);
     connect(improves_, &QCheckBox::toggled, target_, &QWidget::setEnabled);
     connect(chooses_beta_, &QCheckBox::toggled, this, [this] { show_fields(); });
-    connect(boundary_, &QComboBox::currentIndexChanged, this, [this] { show_fields(); });
-    connect(&jobs_.document(), &MeshDocument::state_changed, this, [this] { list_groups(); });
+    connect(&jobs_.document(), &MeshDocument::state_changed, boundary_, [this] {
+        const auto& mesh = jobs_.document().state().mesh;
+        boundary_->list_groups(mesh ? &mesh->topology() : nullptr);
+    });
     connect(method_, &QComboBox::currentIndexChanged, this, [this] {
         show_fields();
         refresh();
     });
-    list_groups();
     show_fields();
 }
 
 void UntanglePanel::show_fields() {
     const auto method = chosen<UntangleMethod>(method_);
     const bool is_guaranteed = method == UntangleMethod::guaranteed;
-    for (QWidget* field : std::initializer_list<QWidget*>{boundary_, improves_, target_})
+    boundary_->set_visible(is_guaranteed);
+    for (QWidget* field : std::initializer_list<QWidget*>{improves_, target_})
         form_->setRowVisible(field, is_guaranteed);
-    form_->setRowVisible(groups_, is_guaranteed && chosen<BoundaryChoice>(boundary_) == BoundaryChoice::by_group);
     const bool is_signed = method == UntangleMethod::signed_angles;
     form_->setRowVisible(chooses_beta_, is_signed);
     for (QWidget* field : std::initializer_list<QWidget*>{beta_, reject_})
         form_->setRowVisible(field, is_signed && !chooses_beta_->isChecked());
     form_->setRowVisible(literal_, method == UntangleMethod::unsigned_angles);
     form_->setRowVisible(passes_, method != UntangleMethod::guaranteed);
-}
-
-void UntanglePanel::list_groups() {
-    const MeshDocument& document = jobs_.document();
-    QStringList names;
-    if (document.has_mesh()) {
-        const MeshTopology& topology = document.state().mesh->topology();
-        for (const PhysicalGroup& group : topology.groups())
-            if (group.dimension == topology.dimension() - 1 && !group.name.empty())
-                names << QString::fromStdString(group.name);
-    }
-    names.removeDuplicates();
-    if (names == group_names_) return;
-    group_names_ = names;
-    groups_->clear();
-    group_modes_.clear();
-    for (const QString& name : names) {
-        auto* item = new QTreeWidgetItem(groups_, {name});
-        item->setToolTip(0, name);
-        item->setSizeHint(1, {110, group_row_height});
-        auto* mode = new QComboBox;
-        mode->addItem(tr("Stays"), int(BoundaryMode::fixed));
-        mode->addItem(tr("Slides"), int(BoundaryMode::slide));
-        mode->addItem(tr("Free"), int(BoundaryMode::free));
-        mode->setAccessibleName(tr("Boundary %1").arg(name));
-        groups_->setItemWidget(item, 1, mode);
-        group_modes_.push_back(mode);
-    }
-    constexpr qsizetype rows_shown = 4;  // more can be scrolled to
-    groups_->setFixedHeight(static_cast<int>(std::clamp<qsizetype>(names.size(), 1, rows_shown)) * group_row_height +
-                            4);
-}
-
-BoundaryRules UntanglePanel::boundary_rules() const {
-    BoundaryRules rules;
-    const auto choice = chosen<BoundaryChoice>(boundary_);
-    if (choice == BoundaryChoice::slide) rules.otherwise = BoundaryMode::slide;
-    if (choice == BoundaryChoice::by_group)
-        for (qsizetype i = 0; i < group_names_.size(); ++i) {
-            const auto mode = chosen<BoundaryMode>(group_modes_[static_cast<std::size_t>(i)]);
-            if (mode != BoundaryMode::fixed) rules.groups.push_back({group_names_[i].toStdString(), mode});
-        }
-    return rules;
 }
 
 void UntanglePanel::run() {
@@ -195,7 +131,7 @@ UntangleOptions UntanglePanel::options() const {
             GuaranteedOptions options;
             options.improves = improves_->isChecked();
             options.target = target_->value();
-            options.boundary = boundary_rules();
+            options.boundary = boundary_->rules();
             return options;
         }
         case UntangleMethod::signed_angles: {

@@ -1,13 +1,10 @@
 #pragma once
 
-#include <vector>
-
-#include <QStringList>
-
 #include "ui/panels/operation_panels.h"
 
 namespace curvewright {
 
+class BoundaryField;
 class LogSpinBox;
 
 /// The methods of untangling and their parameters.
@@ -28,14 +25,9 @@ class UntanglePanel : public OperationPanel {
     void make_fields();
     /// Only what belongs to the method chosen.
     void show_fields();
-    /// The named parts of the present mesh's boundary, each with what it may do.
-    void list_groups();
-    BoundaryRules boundary_rules() const;
 
-    QComboBox *method_ = nullptr, *boundary_ = nullptr;
-    QTreeWidget* groups_ = nullptr;
-    QStringList group_names_;
-    std::vector<QComboBox*> group_modes_;  ///< one per name
+    QComboBox* method_ = nullptr;
+    BoundaryField* boundary_ = nullptr;
     QCheckBox *chooses_beta_ = nullptr, *improves_ = nullptr, *reject_ = nullptr, *literal_ = nullptr;
     QDoubleSpinBox* target_ = nullptr;
     LogSpinBox* beta_ = nullptr;

@@ -42,6 +42,9 @@ std::vector<Action> all_actions() {
     drag.motion = AffineMotion::rotation({1.0, 2.0, 3.0}, 0.7);
     drag.motion.shift = {1e17 + 2, 0.1 + 0.2, -0.0};
     drag.options = weights;
+    drag.rules.boundary.add("slide");
+    drag.rules.boundary.add("outer wall=free");
+    drag.rules.solves_anew = true;
     DragAction plain;
     plain.nodes = {{1}};
     plain.motion.shift = {1.0, 2.0, 3.0};
@@ -78,6 +81,11 @@ TEST(SessionFile, EveryActionComesBackAsItWas) {
     EXPECT_EQ(drag.motion.linear, its.motion.linear);  // bit for bit
     EXPECT_EQ(drag.motion.shift, its.motion.shift);
     EXPECT_EQ(drag.origin, its.origin);
+    EXPECT_EQ(drag.rules.boundary.otherwise, BoundaryMode::slide);
+    ASSERT_EQ(drag.rules.boundary.groups.size(), 1u);
+    EXPECT_EQ(drag.rules.boundary.groups[0].group, "outer wall");
+    EXPECT_EQ(drag.rules.boundary.groups[0].mode, BoundaryMode::free);
+    EXPECT_TRUE(drag.rules.solves_anew);
     EXPECT_EQ(drag.options.distance_power, 1.0 / 3.0);
     EXPECT_EQ(drag.options.neighbours, NeighbourKind::edge_connected);
     EXPECT_EQ(drag.options.solver, SolverChoice::direct);
@@ -120,6 +128,8 @@ TEST(SessionFile, BadLinesAreNamed) {
         {"{\"action\": \"untangle\", \"method\": \"signed-angle\", \"beta\": 0.5, \"max_passes\": 0}", "whole number"},
         {"{\"action\": \"drag\", \"shift\": [0, 0, 0]}", "\"nodes\" is missing"},
         {"{\"action\": \"drag\", \"nodes\": [1.5], \"shift\": [0, 0, 0]}", "node tags"},
+        {"{\"action\": \"drag\", \"nodes\": [1], \"shift\": [0, 0, 0], \"boundary\": [\"glide\"]}", "not understood"},
+        {"{\"action\": \"drag\", \"nodes\": [1], \"shift\": [0, 0, 0], \"solves_anew\": 1}", "true or false"},
         {"{\"action\": \"drag\", \"nodes\": [1], \"shares\": [1, 2], \"shift\": [0, 0, 0]}", "1 nodes and 2 shares"},
         {"{\"action\": \"drag\", \"nodes\": [1], \"shift\": [0, 0]}", "three numbers"},
         {"{\"action\": \"drag\", \"nodes\": [1], \"shift\": [0, 0, 1e999]}", "not"},

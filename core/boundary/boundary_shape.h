@@ -7,8 +7,8 @@
 #include <Eigen/Core>
 
 #include "core/mesh/curved_mesh.h"
-#include "core/untangle/boundary_piece.h"
-#include "core/untangle/boundary_rules.h"
+#include "core/boundary/boundary_piece.h"
+#include "core/boundary/boundary_rules.h"
 
 namespace curvewright {
 

@@ -1,4 +1,4 @@
-#include "core/edit/boundary_parts.h"
+#include "core/boundary/boundary_parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,38 +10,10 @@
 
 #include "core/basis/lagrange.h"
 #include "core/basis/reference_element.h"
-#include "core/quality/quality.h"
+#include "core/boundary/disjoint_sets.h"
 
 namespace curvewright {
 namespace {
-
-/// Sets that grow together.
-class DisjointSets {
-  public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int root(int i) {
-        while (parent_[static_cast<std::size_t>(i)] != i)
-            i = parent_[static_cast<std::size_t>(i)] =
-                parent_[static_cast<std::size_t>(parent_[static_cast<std::size_t>(i)])];
-        return i;
-    }
-    void join(int a, int b) {
-        parent_[static_cast<std::size_t>(std::max(root(a), root(b)))] = std::min(root(a), root(b));
-    }
-    /// Numbers of the sets in the order of their first members; their count.
-    int label(std::vector<int>& labels) {
-        labels.assign(parent_.size(), -1);
-        int count = 0;
-        for (std::size_t i = 0; i < parent_.size(); ++i) {
-            const auto first = static_cast<std::size_t>(root(static_cast<int>(i)));
-            labels[i] = first == i ? count++ : labels[first];
-        }
-        return count;
-    }
-
-  private:
-    std::vector<int> parent_;
-};
 
 /// Where facets of a type meet their neighbours, and derivatives of the facet's map there.
 struct MeetingPoints {

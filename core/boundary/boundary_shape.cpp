@@ -1,10 +1,9 @@
-#include "core/untangle/boundary_shape.h"
+#include "core/boundary/boundary_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <numeric>
 #include <set>
 
 #include <Eigen/Geometry>
@@ -12,30 +11,10 @@
 #include "core/base/parallel.h"
 #include "core/basis/lagrange.h"
 #include "core/basis/reference_element.h"
+#include "core/boundary/disjoint_sets.h"
 
 namespace curvewright {
 namespace {
-
-/// Union-find over 0..n-1.
-class Parts {
-  public:
-    explicit Parts(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
-    int of(int i) {
-        while (parent_[static_cast<std::size_t>(i)] != i)
-            i = parent_[static_cast<std::size_t>(i)] =
-                parent_[static_cast<std::size_t>(parent_[static_cast<std::size_t>(i)])];
-        return i;
-    }
-    void join(int a, int b) { parent_[static_cast<std::size_t>(of(a))] = of(b); }
-    std::vector<int> all() {
-        std::vector<int> result;
-        for (int i = 0; i < static_cast<int>(parent_.size()); ++i) result.push_back(of(i));
-        return result;
-    }
-
-  private:
-    std::vector<int> parent_;
-};
 
 /// Unit tangent of a line at a point, turned to the side of its chord; zero where there is none.
 Eigen::Vector3d chord_tangent(const BoundaryPiece& line, double s) {
@@ -139,7 +118,7 @@ void BoundaryShape::add_curves(const std::vector<std::vector<Index>>& lines,
             ends[lines[i][static_cast<std::size_t>(end)]].emplace_back(static_cast<int>(i), end);
     }
     std::vector<char> is_corner(is_point_);
-    Parts parts(lines.size());
+    DisjointSets parts(lines.size());
     for (const auto& [node, meeting] : ends) {
         bool goes_on = meeting.size() == 2 && !is_corner[node];
         if (goes_on) {
@@ -154,7 +133,9 @@ void BoundaryShape::add_curves(const std::vector<std::vector<Index>>& lines,
         }
         if (!goes_on) is_corner[node] = 1;
     }
-    connect(first, parts.all(), is_corner);
+    std::vector<int> part;
+    parts.label(part);
+    connect(first, part, is_corner);
     for (std::size_t i = 0; i < lines.size(); ++i)
         for (std::size_t n = 0; n < lines[i].size(); ++n) {
             const Index node = lines[i][n];
@@ -221,7 +202,7 @@ void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const BoundaryModes& mo
         }
         return false;
     };
-    Parts parts(facets.size());
+    DisjointSets parts(facets.size());
     std::vector<std::vector<Index>> feature_lines;
     std::vector<char> is_feature_node(is_point_);
     for (const auto& [key, sides] : edges) {
@@ -244,7 +225,8 @@ void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const BoundaryModes& mo
     }
     // A node that two smooth parts share without a feature edge between them belongs to neither.
     std::vector<int> part_of(static_cast<std::size_t>(topology.node_count()), -1);
-    const std::vector<int> part = parts.all();
+    std::vector<int> part;
+    parts.label(part);
     for (std::size_t f = 0; f < facets.size(); ++f)
         for (const Index node : piece_nodes_[f]) {
             if (part_of[node] >= 0 && part_of[node] != part[f]) is_feature_node[node] = 1;

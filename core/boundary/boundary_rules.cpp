@@ -1,4 +1,4 @@
-#include "core/untangle/boundary_rules.h"
+#include "core/boundary/boundary_rules.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "core/untangle/boundary_shape.h"
+#include "core/boundary/boundary_shape.h"
 
 #include <cmath>
 #include <numbers>

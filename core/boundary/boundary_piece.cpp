@@ -1,4 +1,4 @@
-#include "core/untangle/boundary_piece.h"
+#include "core/boundary/boundary_piece.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "core/edit/boundary_parts.h"
+#include "core/boundary/boundary_parts.h"
 
 #include <cmath>
 #include <numbers>
