@@ -1,11 +1,15 @@
 /// The boundary in hand: real mouse events in the view, and what becomes of the mesh, the panels and the history.
 
+#include <QCheckBox>
+#include <QComboBox>
 #include <QLabel>
 #include <QOpenGLWidget>
 #include <QSettings>
 #include <QSignalSpy>
+#include <QTreeWidget>
 #include <QWheelEvent>
 
+#include "core/session/replay.h"
 #include "core/warp/warp.h"
 #include "tests/gui/drag_under_test.h"
 #include "ui/main_window/mesh_view.h"
@@ -357,6 +361,64 @@ class DragTest : public QObject {
         for (const Index node : test.topology().boundary_nodes())
             if (node != nearest) QCOMPARE(test.positions().row(node), opened.row(node));
         QVERIFY(test.distance_from_warp() < 1e-10);
+    }
+
+    void the_rest_of_the_boundary_slides_where_it_is_told_to() {
+        DragUnderTest test;
+        EditSettings settings = test.window->edit().settings();
+        settings.unit = GrabUnit::side;
+        test.window->edit().set_settings(settings);
+        test.window->show_tab(QStringLiteral("edit"));
+        auto* rest = test.find<QComboBox>("other_boundary");
+        rest->setCurrentIndex(rest->findText(QStringLiteral("By group")));
+        auto* groups = test.find<QTreeWidget>("other_boundary_groups");
+        QVERIFY(groups->isVisible());
+        for (int row = 0; row < groups->topLevelItemCount(); ++row) {
+            const QString name = groups->topLevelItem(row)->text(0);
+            auto* mode = static_cast<QComboBox*>(groups->itemWidget(groups->topLevelItem(row), 1));
+            if (name == QLatin1String("top") || name == QLatin1String("bottom"))
+                mode->setCurrentIndex(mode->findText(QStringLiteral("Slides")));
+        }
+        const Coordinates opened = test.positions();
+        test.take(test.node_at(1.0, 0.5));
+        QTest::keyClick(&test.view(), Qt::Key_X);
+        test.move_by({20, 0});
+        test.let_go();
+        // The side goes, the sides beside it let the pull through, and all of the square is stretched.
+        const double way = test.positions()(test.node_at(0.0, 0.0), 0) + test.positions().col(0).maxCoeff() - 1.0;
+        QVERIFY(way > 10 * test.unit());
+        for (Index node = 0; node < opened.rows(); ++node) {
+            QVERIFY(std::abs(test.positions()(node, 0) - (1.0 + way) * opened(node, 0)) < 1e-9);
+            QVERIFY(std::abs(test.positions()(node, 1) - opened(node, 1)) < 1e-9);
+        }
+        QCOMPARE(test.document().history()->count(), 1);
+        // What the session says does the same.
+        Replay replay;
+        for (const Action& action : test.document().session()) replay.perform(action);
+        QCOMPARE(replay.mesh().coordinates(), test.positions());
+        test.click("tool_undo");
+        QCOMPARE(test.positions(), opened);
+    }
+
+    void the_interior_is_solved_for_anew_when_asked() {
+        DragUnderTest test;
+        const Index node = test.node_at(0.5, 0.0);
+        test.drag_node(node, {30, -40});
+        const CurvedMesh start = *test.document().state().mesh;
+        test.window->show_tab(QStringLiteral("edit"));
+        test.find<QCheckBox>("solves_anew")->click();
+        test.drag_node(node, {-20, -10});
+        const Coordinates moved = test.positions();
+        const Coordinates wanted = Warper(start).move(moved).coordinates;
+        QVERIFY((moved - wanted).cwiseAbs().maxCoeff() < 1e-12);
+        QVERIFY(test.distance_from_warp() > 1e-6);
+        const QualityReport fresh = assess_quality(*test.document().state().mesh);
+        QCOMPARE(test.document().state().quality->summary.min, fresh.summary.min);
+        QCOMPARE(test.document().state().quality->summary.mean, fresh.summary.mean);
+        Replay replay;
+        for (const Action& action : test.document().session()) replay.perform(action);
+        QCOMPARE(replay.mesh().coordinates(), moved);
+        QCOMPARE(test.document().history()->count(), 2);
     }
 
     void meshes_without_quality_can_be_dragged() {
