@@ -411,17 +411,21 @@ void Tessellation::move_patches(const std::vector<Patch>& patches, const Coordin
     });
 }
 
-bool Tessellation::is_fine_enough(const Coordinates& coordinates) const {
+bool Tessellation::is_fine_enough(const Coordinates& coordinates, int part, int parts) const {
     if (coordinates.rows() != node_count_) return false;
     Eigen::RowVector3d low, high;
     if (!find_box(nodes_, coordinates, low, high)) return true;
     // Single precision is kept only near the origin.
     if ((0.5 * (low + high) - origin_).norm() > 2.0 * diagonal_) return false;
-    std::vector<std::uint8_t> is_too_coarse(faces_.size() + edges_.size(), 0);
+    const std::size_t count = faces_.size() + edges_.size();
+    const auto begin_of = [&](int i) { return count * static_cast<std::size_t>(i) / static_cast<std::size_t>(parts); };
+    const std::size_t first = begin_of(part);
+    std::vector<std::uint8_t> is_too_coarse(begin_of(part + 1) - first, 0);
     parallel_for(is_too_coarse.size(), 256, {}, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            const auto& patches = i < faces_.size() ? faces_ : edges_;
-            const Patch& patch = patches[i < faces_.size() ? i : i - faces_.size()];
+            const std::size_t at = first + i;
+            const auto& patches = at < faces_.size() ? faces_ : edges_;
+            const Patch& patch = patches[at < faces_.size() ? at : at - faces_.size()];
             is_too_coarse[i] = wanted_subdivisions(patch, coordinates, patches) > patch.subdivisions;
         }
     });

@@ -32,7 +32,10 @@ class Tessellation {
     void move(const Coordinates& coordinates);
     /// Whether move() to these coordinates keeps the chord tolerance (no piece would have to be cut finer) and the
     /// precision of the points (the mesh stays near the origin). If not, make a new tessellation.
-    bool is_fine_enough(const Coordinates& coordinates) const;
+    bool is_fine_enough(const Coordinates& coordinates) const { return is_fine_enough(coordinates, 0, 1); }
+    /// The same for one of several parts of the pieces, part in [0, parts): for callers who spread the question over
+    /// several frames.
+    bool is_fine_enough(const Coordinates& coordinates, int part, int parts) const;
 
     /// Subtracted from all points: the centre of the bounding box at construction.
     const Eigen::RowVector3d& origin() const { return origin_; }

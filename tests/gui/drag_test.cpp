@@ -108,6 +108,42 @@ class DragTest : public QObject {
         QVERIFY(is_alike(test.view().picture(1), untouched));
     }
 
+    void frames_drawn_behind_are_the_same_frames() {
+        QImage pictures[2];
+        Coordinates ends[2];
+        for (const DrawingMode mode : {DrawingMode::at_once, DrawingMode::behind}) {
+            const int i = mode == DrawingMode::behind;
+            DragUnderTest test;
+            test.view().set_drawing_mode(mode);
+            QSignalSpy begun(&test.view(), &MeshView::frame_begun), drawn(&test.view(), &MeshView::frame_drawn);
+            test.take(test.node_at(0.5, 0.0));
+            test.move_by({8, -24});
+            QVERIFY(QTest::qWaitFor([&] { return drawn.count() > 0; }));
+            QCOMPARE(begun.count() > 0, mode == DrawingMode::behind);
+            test.let_go();
+            ends[i] = test.positions();
+            // The view's size changes while a frame may be under way.
+            test.window->resize(test.window->size() + QSize(40, 0));
+            test.window->resize(test.window->size() - QSize(40, 0));
+            test.point_at({5, 5});
+            QTest::qWait(100);
+            pictures[i] = test.view().grabFramebuffer();
+            // The camera is drawn from anew; nothing is held back for good.
+            const Eigen::RowVector3d middle(0.5, 0.5, 0.0);
+            const QPointF before = test.view().to_display(middle);
+            drawn.clear();
+            QTest::mousePress(&test.view(), Qt::RightButton, {}, QPoint(100, 100));
+            for (int step = 1; step <= 5; ++step) QTest::mouseMove(&test.view(), QPoint(100 + 10 * step, 100));
+            QTest::mouseRelease(&test.view(), Qt::RightButton, {}, QPoint(150, 100));
+            QVERIFY(std::abs(test.view().to_display(middle).x() - before.x() - 50.0) < 2.0);
+            QVERIFY(drawn.count() > 0 || drawn.wait(2000));
+            test.click("tool_undo");
+            QVERIFY(QTest::qWaitFor([&] { return !test.view().has_frame_under_way(); }));
+        }
+        QCOMPARE(ends[0], ends[1]);
+        QVERIFY(is_alike(pictures[0], pictures[1]));
+    }
+
     void a_press_without_a_move_is_no_step() {
         DragUnderTest test;
         test.take(test.node_at(0.5, 0.0));

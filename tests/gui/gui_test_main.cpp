@@ -9,6 +9,7 @@
 
 #include "app/desktop/start_up.h"
 #include "tests/gui/gui_test_support.h"
+#include "ui/main_window/mesh_view.h"
 
 /// Makes the one test object of the program; defined beside its class.
 QObject* make_test();
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "The tests of the window need OpenGL: %s\n", problem.c_str());
         return 1;
     }
+    MeshView::first_drawing_mode = DrawingMode::at_once;
     Theme theme(application);
     testing::the_theme = &theme;
     const std::unique_ptr<QObject> test(make_test());

@@ -239,10 +239,19 @@ void LiveDrag::move(const AffineMotion& motion) {
     if (phase_ != Phase::live || is_step_due_) return;
     // Moves that come faster than frames can be made are skipped.
     is_step_due_ = true;
-    QTimer::singleShot(0, this, &LiveDrag::step);
+    if (!is_held_) QTimer::singleShot(0, this, &LiveDrag::step);
+}
+
+void LiveDrag::hold_frames(bool is_held) {
+    if (is_held_ == is_held) return;
+    is_held_ = is_held;
+    if (is_held || !is_step_due_) return;
+    // Not in the turn of the event loop that shows the last frame, but in the next: what the user does comes first.
+    QTimer::singleShot(0, this, [this] { QTimer::singleShot(0, this, &LiveDrag::step); });
 }
 
 void LiveDrag::step() {
+    if (is_held_) return;  // hold_frames() comes back here
     is_step_due_ = false;
     if (phase_ != Phase::live || finishes_) return;
     const Coordinates& positions = drag_->move(motion_);

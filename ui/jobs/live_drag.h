@@ -49,6 +49,8 @@ class LiveDrag : public QObject {
     /// stays.
     void begin(const DragRequest& request);
     void change(const DragRequest& request);
+    /// While true no frames are made: whoever shows them is still busy with the last one.
+    void hold_frames(bool is_held);
     /// The hand is there now, relative to where it took hold.
     void move(const AffineMotion& motion);
     /// Lets go: the motion becomes a step of the history (unless there is none). ended() follows.
@@ -90,7 +92,7 @@ class LiveDrag : public QObject {
 
     Phase phase_ = Phase::idle;
     int generation_ = 0;  ///< results of older ones are dropped
-    bool is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
+    bool is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
     MeshState start_;
     DragRequest request_;
     std::shared_ptr<Drag> drag_;

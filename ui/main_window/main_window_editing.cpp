@@ -70,6 +70,8 @@ void MainWindow::connect_editing() {
         else
             hint_->setText(tr("%1, %2 %. Esc: put back").arg(phase).arg(static_cast<int>(100.0 * fraction)));
     });
+    connect(view_, &MeshView::frame_begun, &drag_, [this] { drag_.hold_frames(true); });
+    connect(view_, &MeshView::frame_drawn, &drag_, [this] { drag_.hold_frames(false); });
     connect(view_, &MeshView::pointer_moved, pointer_tag_, &PointerTag::follow);
     const auto refresh = [this] {
         if (Tool* tool = current_tool()) tool->refresh();

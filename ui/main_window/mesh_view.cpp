@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdlib>
 
+#include <QCoreApplication>
 #include <QKeyEvent>
 #include <QMouseEvent>
 #include <QOffscreenSurface>
@@ -20,6 +21,7 @@
 #include <vtkGenericOpenGLRenderWindow.h>
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkNew.h>
+#include <vtkObjectFactory.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
@@ -28,6 +30,9 @@
 #include "ui/tools/tool.h"
 
 namespace curvewright {
+
+vtkStandardNewMacro(DeferringRenderWindow);
+
 namespace {
 
 CameraPose between(const CameraPose& a, const CameraPose& b, double t) {
@@ -119,6 +124,8 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
     parts.interactor->Initialize();
     parts.scene.attach_interactor(parts.interactor);
 
+    parts.behind.mode = first_drawing_mode;
+    connect(&parts.behind.poll, &QTimer::timeout, this, &MeshView::poll_frame_behind);
     parts.flight.setDuration(200);
     parts.flight.setStartValue(0.0);
     parts.flight.setEndValue(1.0);
@@ -126,6 +133,7 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
 }
 
 MeshView::~MeshView() {
+    hold_repaints(false);
     if (context()) context()->disconnect(this);
     release_graphics();
     parts_->window->RemoveObserver(parts_->events);
@@ -226,6 +234,7 @@ QImage MeshView::picture(int scale) {
     Parts& parts = *parts_;
     if (!parts.window->GetReadyForRendering()) return {};
     makeCurrent();
+    finish_frame_behind();
     const std::array<int, 2> shown{parts.window->GetSize()[0], parts.window->GetSize()[1]};
     const int width = shown[0] * scale, height = shown[1] * scale;
     SceneOptions enlarged = parts.options;
@@ -266,37 +275,41 @@ void MeshView::release_graphics() {
     Parts& parts = *parts_;
     if (!parts.window->GetReadyForRendering()) return;
     makeCurrent();
+    if (parts.behind.fence) parts.gl->glDeleteSync(parts.behind.fence);
+    parts.behind.fence = nullptr;
+    parts.behind.poll.stop();
+    parts.behind.is_pending = parts.behind.is_finished = false;
+    parts.behind.must_wait = true;
     parts.window->Finalize();
     parts.window->SetReadyForRendering(false);
     doneCurrent();
 }
 
 void MeshView::resizeGL(int, int) {
+    finish_frame_behind();
     // The framebuffer's own size: rounding of fractional ratios is Qt's.
     const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
     parts_->window->SetSize(size.width(), size.height());
     parts_->interactor->SetSize(size.width(), size.height());
     if (parts_->options.pixel_ratio != devicePixelRatioF()) scale_to_device();
-    parts_->is_stale = true;
+    parts_->is_stale = parts_->behind.must_wait = true;
 }
 
 void MeshView::paintGL() {
     Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    // Whatever else has the window repainted now cannot be drawn before the frame.
+    if (behind.is_pending || behind.is_finished) {
+        finish_frame_behind();
+    } else if (parts.is_stale && (behind.must_wait || !behind.is_on())) {
+        behind.clock.start();
+        render(true);
+        behind.must_wait = false;
+        tell_drawn();
+    }
     vtkOpenGLState* state = parts.window->GetState();
     state->Reset();
     state->Push();
-    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
-    state->vtkglDepthFunc(GL_LEQUAL);
-    if (parts.is_stale) {
-        parts.is_stale = false;
-        parts.window->Render();
-        emit frame_drawn();
-        const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
-        if (!(pose == parts.told_pose)) {
-            parts.told_pose = pose;
-            emit camera_moved();
-        }
-    }
     const int* size = parts.window->GetSize();
     parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
     parts.gl->glDrawBuffer(GL_COLOR_ATTACHMENT0);
@@ -312,11 +325,141 @@ void MeshView::paintGL() {
     state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     state->Pop();
     parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    if (parts.is_stale) request_frame();
+}
+
+void MeshView::render(bool waits) {
+    Parts& parts = *parts_;
+    parts.is_stale = false;
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
+    state->vtkglDepthFunc(GL_LEQUAL);
+    parts.window->set_deferring(!waits);
+    parts.window->Render();
+    parts.window->set_deferring(false);
+    state->Pop();
+}
+
+void MeshView::tell_drawn() {
+    Parts& parts = *parts_;
+    // Both ends of the range apart, so that the mode does not change with every frame.
+    constexpr qint64 slow = 45, quick = 20;  // milliseconds
+    const qint64 took = parts.behind.clock.elapsed();
+    parts.behind.is_slow = took > slow || (parts.behind.is_slow && took > quick);
+    emit frame_drawn();
+    const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
+    if (!(pose == parts.told_pose)) {
+        parts.told_pose = pose;
+        emit camera_moved();
+    }
 }
 
 void MeshView::request_frame() {
     parts_->is_stale = true;
+    const FrameBehind& behind = parts_->behind;
+    if (!behind.is_on() || behind.must_wait || !isVisible())
+        update();
+    else if (!behind.is_pending && !behind.is_finished)
+        schedule_frame_behind();
+}
+
+void MeshView::set_drawing_mode(DrawingMode mode) {
+    parts_->behind.mode = mode;
+    request_frame();
+}
+
+bool MeshView::has_frame_under_way() const {
+    return parts_->is_stale || parts_->behind.is_pending || parts_->behind.is_finished;
+}
+
+void MeshView::schedule_frame_behind() {
+    FrameBehind& behind = parts_->behind;
+    if (behind.is_scheduled) return;
+    behind.is_scheduled = true;
+    // A repaint now would have to be done again when the frame is there.
+    hold_repaints(true);
+    QTimer::singleShot(0, this, &MeshView::begin_frame_behind);
+}
+
+void MeshView::begin_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    behind.is_scheduled = false;
+    if (behind.is_pending || behind.is_finished || !parts.is_stale) return;
+    if (behind.must_wait || !isVisible() || !parts.window->GetReadyForRendering()) {
+        hold_repaints(false);
+        update();
+        return;
+    }
+    makeCurrent();
+    behind.clock.start();
+    render(false);
+    behind.fence = parts.gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    parts.gl->glFlush();
+    doneCurrent();
+    behind.is_pending = true;
+    constexpr int interval = 3;  // milliseconds
+    behind.poll.start(interval);
+    emit frame_begun();
+}
+
+void MeshView::poll_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    if (behind.is_pending && behind.fence) {
+        makeCurrent();
+        const GLenum state = parts.gl->glClientWaitSync(behind.fence, 0, 0);
+        doneCurrent();
+        if (state == GL_TIMEOUT_EXPIRED) return;
+    }
+    behind.poll.stop();
+    behind.is_finished = behind.is_pending;
+    behind.is_pending = false;
+    hold_repaints(false);
     update();
+}
+
+void MeshView::finish_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    hold_repaints(false);
+    if (!behind.is_pending && !behind.is_finished) return;
+    behind.poll.stop();
+    behind.is_pending = behind.is_finished = false;
+    if (behind.fence) parts.gl->glDeleteSync(behind.fence);
+    behind.fence = nullptr;
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    parts.window->Frame();
+    state->Pop();
+    tell_drawn();
+}
+
+void MeshView::hold_repaints(bool is_held) {
+    FrameBehind& behind = parts_->behind;
+    if (is_held) {
+        if (behind.held_window) return;
+        behind.held_window = window();
+        behind.held_window->installEventFilter(this);
+        return;
+    }
+    if (!behind.held_window) return;
+    behind.held_window->removeEventFilter(this);
+    if (behind.has_held) QCoreApplication::postEvent(behind.held_window, new QEvent(QEvent::UpdateRequest));
+    behind.has_held = false;
+    behind.held_window = nullptr;
+}
+
+bool MeshView::eventFilter(QObject* watched, QEvent* event) {
+    FrameBehind& behind = parts_->behind;
+    if (watched == behind.held_window && event->type() == QEvent::UpdateRequest) {
+        behind.has_held = true;
+        return true;
+    }
+    return QOpenGLWidget::eventFilter(watched, event);
 }
 
 void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat) {

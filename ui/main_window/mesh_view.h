@@ -15,6 +15,13 @@ namespace curvewright {
 
 class Tool;
 
+/// When a view waits for its picture.
+enum class DrawingMode {
+    at_once,    ///< a repaint of the window draws and waits for the picture
+    behind,     ///< the graphics draw while the event loop goes on; the window is repainted when the picture is there
+    automatic,  ///< behind when pictures take long, as large meshes do without a graphics card
+};
+
 /// The picture of the mesh: a MeshScene in a Qt widget (a vtkGenericOpenGLRenderWindow that draws into the widget's
 /// framebuffer). Renders at most once per repaint of the window, and only if something has changed.
 class MeshView : public QOpenGLWidget, public Canvas {
@@ -34,6 +41,12 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// The options to draw with; the pixel ratio is the view's own.
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
+
+    void set_drawing_mode(DrawingMode mode);
+    /// Whether a frame is asked for that is not seen yet.
+    bool has_frame_under_way() const;
+    /// Of views made from now on; tests want their pictures at once.
+    static inline DrawingMode first_drawing_mode = DrawingMode::automatic;
 
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
@@ -67,6 +80,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void pointer_moved(QPointF position);
     /// A frame was drawn from somewhere else than the one before, but not where follow_camera() put it.
     void camera_moved();
+    /// A frame is being drawn behind: until frame_drawn(), another one would only be waited for.
+    void frame_begun();
     /// A frame has been drawn anew and is about to be seen.
     void frame_drawn();
     /// An element was clicked (none: the background).
@@ -83,12 +98,22 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void leaveEvent(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     bool event(QEvent* event) override;
+    bool eventFilter(QObject* watched, QEvent* event) override;
 
   private:
     struct Parts;
 
     void release_graphics();
     void request_frame();
+    /// Renders; with waits = false up to where the picture would be waited for.
+    void render(bool waits);
+    void schedule_frame_behind();
+    void begin_frame_behind();
+    void poll_frame_behind();
+    /// The picture that was drawn behind becomes the one that is shown; waits for it if it is not there.
+    void finish_frame_behind();
+    void hold_repaints(bool is_held);
+    void tell_drawn();
     /// From where the camera is to where `set` puts it.
     void fly(const std::function<void()>& set);
     void send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat = false);

@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include <QElapsedTimer>
 #include <QOpenGLFunctions_3_2_Core>
 #include <QPointer>
 #include <QTimer>
@@ -42,9 +43,42 @@ struct CameraPose {
     }
 };
 
+/// A render window whose frames can be left in the framebuffer that they are rendered to: taking them from there waits
+/// until they are finished.
+class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
+  public:
+    static DeferringRenderWindow* New();
+    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow);
+
+    void set_deferring(bool is_deferring) { is_deferring_ = is_deferring; }
+    void Frame() override {
+        if (!is_deferring_) vtkGenericOpenGLRenderWindow::Frame();
+    }
+
+  private:
+    bool is_deferring_ = false;
+};
+
+/// A frame that is drawn while the event loop goes on.
+struct FrameBehind {
+    DrawingMode mode = DrawingMode::automatic;
+    bool is_slow = false;       ///< the last picture took long
+    bool is_scheduled = false;  ///< to begin
+    bool is_pending = false;    ///< begun, not known to be finished
+    bool is_finished = false;   ///< but not shown yet
+    bool must_wait = true;      ///< the next one, because there is no picture of the present size
+    GLsync fence = nullptr;
+    QTimer poll;
+    QElapsedTimer clock;
+    QPointer<QWidget> held_window;  ///< whose repaints wait for the frame
+    bool has_held = false;          ///< a repaint of it
+
+    bool is_on() const { return mode == DrawingMode::behind || (mode == DrawingMode::automatic && is_slow); }
+};
+
 struct MeshView::Parts {
     MeshScene scene;
-    vtkNew<vtkGenericOpenGLRenderWindow> window;
+    vtkNew<DeferringRenderWindow> window;
     vtkNew<vtkGenericRenderWindowInteractor> interactor;
     vtkNew<vtkCallbackCommand> events;
     QOpenGLFunctions_3_2_Core* gl = nullptr;
@@ -56,6 +90,7 @@ struct MeshView::Parts {
     QPointF press_position;
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
+    FrameBehind behind;
     bool may_be_click = false;
     QPointer<Tool> tool;
     bool tool_has_mouse = false;  ///< between a press that the tool took and its release

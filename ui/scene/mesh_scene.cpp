@@ -1,7 +1,6 @@
 #include "ui/scene/mesh_scene.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -101,7 +100,7 @@ struct MeshScene::Parts {
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
     double typical_spacing = 0.0;                                 ///< world
-    std::chrono::steady_clock::time_point next_fineness_check{};  ///< of a motion
+    int fineness_part = 0;  ///< of the pieces, looked at last in a motion
 
     CameraControl camera{renderer};
     SurfaceActor surface;
@@ -208,20 +207,15 @@ struct MeshScene::Parts {
     }
 
     /// A frame of a motion: see MeshScene::show_frame.
-    void draw_frame(bool has_new_quality) {
-        // Telling whether a side bends too much for its chords costs as much as moving all of them: a tenth of the
-        // time.
-        const auto now = std::chrono::steady_clock::now();
-        if (now >= next_fineness_check) {
-            const bool is_fine = tessellation->is_fine_enough(mesh->coordinates());
-            const auto end = std::chrono::steady_clock::now();
-            next_fineness_check = end + 9 * (end - now);
-            if (!is_fine) {
-                draw_mesh(false);
-                return;
-            }
+    void draw_frame(bool has_moved, bool has_new_quality) {
+        // Telling whether a side bends too much for its chords costs as much as moving all of them: a part per frame.
+        constexpr int parts = 12;
+        fineness_part = (fineness_part + 1) % parts;
+        if (has_moved && !tessellation->is_fine_enough(mesh->coordinates(), fineness_part, parts)) {
+            draw_mesh(false);
+            return;
         }
-        tessellation->move(mesh->coordinates());
+        if (has_moved) tessellation->move(mesh->coordinates());
         // Lines between very small elements are many and hardly seen: not while things move.
         constexpr double seen_spacing = 6.0;  // units of the pixel ratio
         constexpr std::size_t many_lines = 20000;
@@ -229,13 +223,13 @@ struct MeshScene::Parts {
             tessellation->line_elements().size() > many_lines &&
             typical_spacing * view().pixels_per_unit(camera.distance()) < seen_spacing * options.pixel_ratio;
         edges.actor()->SetVisibility(options.show_edges && !are_too_many);
-        surface.set_surface(*tessellation, false);
+        if (has_moved) surface.set_surface(*tessellation, false);
         if (has_new_quality) surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
-        if (!are_too_many) edges.move_lines(select_points(*tessellation, false));
-        boundary.move_lines(select_points(*tessellation, true));
-        if (options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
+        if (has_moved && !are_too_many) edges.move_lines(select_points(*tessellation, false));
+        if (has_moved) boundary.move_lines(select_points(*tessellation, true));
+        if (has_moved && options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
         if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
-        if (!highlighted.empty()) draw_highlight();
+        if (has_moved && !highlighted.empty()) draw_highlight();
     }
 
     void set_camera_content() {
@@ -344,14 +338,16 @@ void MeshScene::set_mesh(const CurvedMesh* mesh, const QualityReport* quality) {
 void MeshScene::show_frame(const Coordinates& positions, const QualityReport* quality) {
     Parts& parts = *parts_;
     if (!parts.mesh) return;
-    parts.mesh = parts.mesh->with_coordinates(positions);
+    // Quality that follows a moment later comes with the positions that are shown already.
+    const bool has_moved = positions.rows() != parts.mesh->coordinates().rows() || positions != parts.mesh->coordinates();
+    if (has_moved) parts.mesh = parts.mesh->with_coordinates(positions);
     if (quality) {
         if (quality->elements.size() != static_cast<std::size_t>(parts.mesh->topology().element_count()))
             throw InvalidInput("The quality report of a frame belongs to a mesh with another number of elements.");
         parts.quality = *quality;
         parts.legend.set_summary(quality->summary);
     }
-    parts.draw_frame(quality != nullptr);
+    parts.draw_frame(has_moved, quality != nullptr);
 }
 
 void MeshScene::set_options(const SceneOptions& options) {
