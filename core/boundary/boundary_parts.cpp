@@ -111,7 +111,7 @@ BoundaryParts::BoundaryParts(const CurvedMesh& mesh, double feature_angle) : top
     DisjointSets components(facets.size()), parts(facets.size());
     struct Meeting {
         std::array<Index, 2> corners;
-        int facet;
+        int facet, at;
         Eigen::Vector3d leaving;
     };
     std::vector<Meeting> meetings;
@@ -126,7 +126,8 @@ BoundaryParts::BoundaryParts(const CurvedMesh& mesh, double feature_angle) : top
             std::array<Index, 2> corners{nodes[static_cast<std::size_t>(points.corners[at].front())],
                                          nodes[static_cast<std::size_t>(points.corners[at].back())]};
             std::sort(corners.begin(), corners.end());
-            meetings.push_back({corners, static_cast<int>(facet), leaving_direction(points, x, at)});
+            meetings.push_back(
+                {corners, static_cast<int>(facet), static_cast<int>(at), leaving_direction(points, x, at)});
         }
         for (Index node : nodes) components.join(static_cast<int>(facet), facets_of_node(node).front());
     }
@@ -138,10 +139,47 @@ BoundaryParts::BoundaryParts(const CurvedMesh& mesh, double feature_angle) : top
         while (end < meetings.size() && meetings[end].corners == meetings[i].corners) ++end;
         if (end == i + 2 && -meetings[i].leaving.dot(meetings[i + 1].leaving) >= least)
             parts.join(meetings[i].facet, meetings[i + 1].facet);
+        else if (topology.dimension() == 3)
+            add_feature_edge(meetings[i].facet, meetings[i].at);
         i = end;
     }
+    join_feature_edges();
     component_count_ = components.label(component_);
     smooth_part_count_ = parts.label(smooth_part_);
+}
+
+void BoundaryParts::add_feature_edge(int facet, int edge) {
+    const Facet& its = topology_->boundary_facets()[static_cast<std::size_t>(facet)];
+    const ElementType type = reference_element(topology_->element_type(its.element)).facets[its.local].type;
+    std::vector<Index> nodes;
+    for (const int local : reference_element(type).edges[static_cast<std::size_t>(edge)].nodes)
+        nodes.push_back(facet_nodes_[facet_offsets_[static_cast<std::size_t>(facet)] + static_cast<std::size_t>(local)]);
+    feature_edges_.push_back(std::move(nodes));
+}
+
+void BoundaryParts::join_feature_edges() {
+    std::map<Index, std::vector<int>> edges_of_end;
+    for (std::size_t edge = 0; edge < feature_edges_.size(); ++edge)
+        for (int end = 0; end < 2; ++end)
+            edges_of_end[feature_edges_[edge][static_cast<std::size_t>(end)]].push_back(static_cast<int>(edge));
+    DisjointSets lines(feature_edges_.size());
+    for (const auto& [node, edges] : edges_of_end)
+        if (edges.size() == 2) lines.join(edges[0], edges[1]);
+    lines.label(feature_line_);
+}
+
+std::vector<Index> BoundaryParts::feature_line_nodes_around(Index node) const {
+    std::vector<int> lines;
+    for (std::size_t edge = 0; edge < feature_edges_.size(); ++edge)
+        if (std::find(feature_edges_[edge].begin(), feature_edges_[edge].end(), node) != feature_edges_[edge].end())
+            lines.push_back(feature_line_[edge]);
+    std::vector<Index> nodes;
+    for (std::size_t edge = 0; edge < feature_edges_.size(); ++edge)
+        if (std::find(lines.begin(), lines.end(), feature_line_[edge]) != lines.end())
+            nodes.insert(nodes.end(), feature_edges_[edge].begin(), feature_edges_[edge].end());
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
 }
 
 std::span<const Index> BoundaryParts::facets_of_node(Index node) const {

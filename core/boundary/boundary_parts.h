@@ -38,11 +38,17 @@ class BoundaryParts {
     std::vector<Index> smooth_nodes_around(Index node) const;
     std::vector<Index> component_nodes_around(Index node) const;
 
+    /// 3D: nodes of the feature edges (those between smooth parts) that hang together with the ones a node is on, up to
+    /// where other than two of them meet; ascending, none for nodes on no feature edge.
+    std::vector<Index> feature_line_nodes_around(Index node) const;
+
     /// Unit normal of the boundary at a boundary node, outward, the mean of its facets'; zero where there is none
     /// (other nodes, facets that cancel). x: positions of the mesh's nodes, of any state.
     Eigen::Vector3d normal(const Coordinates& x, Index node) const;
 
   private:
+    void add_feature_edge(int facet, int edge);
+    void join_feature_edges();
     std::vector<Index> collect(const std::vector<int>& labels, int label) const;
 
     std::shared_ptr<const MeshTopology> topology_;
@@ -52,6 +58,8 @@ class BoundaryParts {
     std::vector<std::size_t> node_offsets_;  ///< nodes + 1
     std::vector<Index> node_facets_;
     std::vector<int> component_, smooth_part_;
+    std::vector<std::vector<Index>> feature_edges_;  ///< 3D: their nodes, the ends first
+    std::vector<int> feature_line_;                  ///< per feature edge: 0 .. count - 1
     int component_count_ = 0, smooth_part_count_ = 0;
 };
 

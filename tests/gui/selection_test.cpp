@@ -314,6 +314,53 @@ class SelectionTest : public QObject {
         QCOMPARE(test.positions(), opened);
     }
 
+    void handles_of_a_selection_outside_the_view_are_at_its_rim() {
+        SelectionUnderTest test(CommandId::tool_transform);
+        test.edit().select_nodes(test.group("right"));
+        // The camera goes to the left side; the right one is far out of the view.
+        test.view().fit_to(Eigen::RowVector3d(0.0, 0.5, 0.0), 0.15);
+        QTest::qWait(400);
+        const Coordinates opened = test.positions();
+        const QPoint middle = test.at(1.0, 0.5);
+        QVERIFY(middle.x() > test.view().width() + 50);
+        const QPoint tip(test.view().width() - 104 + 60, middle.y());
+        test.point_at(tip);
+        QVERIFY2(test.text("hint").contains(QStringLiteral("along x")), qPrintable(test.text("hint")));
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, tip);
+        QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));
+        test.mouse = tip;
+        test.move_by({-40, 0});
+        test.let_go();
+        const Index node = test.group("right").front();
+        QVERIFY(std::abs(opened(node, 0) - test.positions()(node, 0) - 40 * test.unit()) < 1.5 * test.unit());
+        test.click("tool_undo");
+        // A turn is about the middle of the selection, wherever its ring is.
+        const QPoint ring(test.view().width() - 104 + 34, middle.y() - 34);
+        test.point_at(ring);
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, ring);
+        QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));
+        test.mouse = ring;
+        test.move_by({-68, 0}, Qt::ControlModifier);  // 90 degrees
+        test.let_go();
+        for (const Index turned : test.group("right")) {
+            QVERIFY(std::abs(test.positions()(turned, 0) - (1.0 - (opened(turned, 1) - 0.5))) < 1e-9);
+            QVERIFY(std::abs(test.positions()(turned, 1) - 0.5) < 1e-9);
+        }
+    }
+
+    void feature_lines_of_a_solid_are_selected() {
+        DragUnderTest test("cube.msh");
+        QAction* command = test.window->action(CommandId::select_feature);
+        QVERIFY(!command->isEnabled());
+        test.window->edit().select_nodes({test.node_at(0.5, 0.0, 0.0)});
+        command->trigger();
+        for (const Index node : test.window->edit().nodes()) {
+            QCOMPARE(test.positions()(node, 1), 0.0);
+            QCOMPARE(test.positions()(node, 2), 0.0);
+        }
+        QCOMPARE(test.window->edit().nodes().size(), std::size_t(5));
+    }
+
     void a_click_on_the_boundary_gives_the_handles_something() {
         SelectionUnderTest test(CommandId::tool_transform);
         EditSettings settings = test.edit().settings();

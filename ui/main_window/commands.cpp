@@ -35,6 +35,7 @@ const Command command_list[] = {
     {CommandId::select_grow, CommandMenu::select, "select_grow", TEXT("&Grow"), TEXT("Select one layer more"), "", "+; =", false, true},
     {CommandId::select_shrink, CommandMenu::select, "select_shrink", TEXT("S&hrink"), TEXT("Select one layer less"), "", "-"},
     {CommandId::select_side, CommandMenu::select, "select_side", TEXT("&Sides of the selection"), TEXT("Select the smooth parts of the boundary that the selected nodes are on"), "", "Ctrl+E"},
+    {CommandId::select_feature, CommandMenu::select, "select_feature", TEXT("&Feature lines of the selection"), TEXT("Select the edges between smooth parts of a solid's boundary that the selected nodes are on"), "", "Ctrl+Alt+E"},
     {CommandId::select_boundary, CommandMenu::select, "select_boundary", TEXT("Whole &boundaries of the selection"), TEXT("Select the connected boundaries that the selected nodes are on"), "", "Ctrl+B"},
     {CommandId::select_tangled, CommandMenu::select, "select_tangled", TEXT("&Tangled elements"), TEXT("Select the elements that are not proved valid"), "", "Ctrl+T"},
     {CommandId::pin_selection, CommandMenu::select, "pin_selection", TEXT("&Pin the selected nodes"), TEXT("They stay, whatever is dragged"), "", "Ctrl+P", false, true},

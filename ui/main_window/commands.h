@@ -36,6 +36,7 @@ enum class CommandId {
     select_grow,
     select_shrink,
     select_side,
+    select_feature,
     select_boundary,
     select_tangled,
     pin_selection,

@@ -275,6 +275,7 @@ void MainWindow::update_commands() {
         actions_[id]->setEnabled(has_nodes || has_elements);
     for (const CommandId id : {CommandId::select_side, CommandId::select_boundary, CommandId::pin_selection})
         actions_[id]->setEnabled(has_nodes);
+    actions_[CommandId::select_feature]->setEnabled(has_nodes && is_3d);
     actions_[CommandId::select_tangled]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::unpin_all]->setEnabled(!edit_.pins().empty());
     mesh_panel_->set_history_enabled(is_idle);

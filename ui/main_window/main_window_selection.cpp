@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include <QAction>
+#include <QStatusBar>
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
@@ -36,6 +37,14 @@ void MainWindow::connect_selection() {
         IndexSet nodes = edit_.nodes();
         for (const int part : parts) nodes = united(nodes, boundary.smooth_part_nodes(part));
         edit_.select_nodes(std::move(nodes));
+    });
+    on(CommandId::select_feature, [this] {
+        IndexSet nodes;
+        for (const Index node : edit_.nodes()) nodes = united(nodes, edit_.boundary().feature_line_nodes_around(node));
+        if (nodes.empty())
+            statusBar()->showMessage(tr("None of the selected nodes is on a feature line."), 6000);
+        else
+            edit_.select_nodes(std::move(nodes));
     });
     on(CommandId::select_boundary, [this] {
         IndexSet nodes;

@@ -63,6 +63,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     QImage picture(int scale);
 
     bool is_flat() const override;
+    QSize view_size() const override { return size(); }
     QPointF to_display(const Eigen::RowVector3d& point) const override;
     Eigen::RowVector3d to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const override;
     double units_per_pixel(const Eigen::RowVector3d& at) const override;

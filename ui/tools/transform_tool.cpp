@@ -94,9 +94,20 @@ Eigen::RowVector3d TransformTool::middle_of_selection(const Coordinates& positio
     return 0.5 * (low + high);
 }
 
+Eigen::RowVector3d TransformTool::place_of_handles(const Coordinates& positions) const {
+    const Eigen::RowVector3d middle = middle_of_selection(positions);
+    const QPointF shown = context_.canvas.to_display(middle);
+    const QSize room = context_.canvas.view_size();
+    // A view smaller than that shows what it can of them.
+    const double margin = std::min({box_distance + 12.0, 0.5 * room.width(), 0.5 * room.height()});
+    const QPointF inside(std::clamp(shown.x(), margin, room.width() - margin),
+                         std::clamp(shown.y(), margin, room.height() - margin));
+    return inside == shown ? middle : context_.canvas.to_mesh(inside, middle);
+}
+
 std::optional<TransformTool::Handle> TransformTool::handle_at(QPointF position) const {
     if (context_.edit.nodes().empty()) return std::nullopt;
-    const Eigen::RowVector3d pivot = middle_of_selection(context_.document().state().mesh->coordinates());
+    const Eigen::RowVector3d pivot = place_of_handles(context_.document().state().mesh->coordinates());
     std::optional<Handle> best;
     double least = std::numeric_limits<double>::infinity();
     for (const Handle& handle : handles()) {
@@ -153,7 +164,8 @@ bool TransformTool::press(const PointerEvent& event) {
     if (nodes_.empty()) return true;
     held_ = *hovered_;
     pivot_ = middle_of_selection(context_.document().state().mesh->coordinates());
-    length_ = arrow_length * context_.canvas.units_per_pixel(pivot_);
+    handles_at_ = place_of_handles(context_.document().state().mesh->coordinates());
+    length_ = arrow_length * context_.canvas.units_per_pixel(handles_at_);
     press_ = event.position;
     is_held_ = true;
     value_ = held_.kind == HandleKind::box || held_.kind == HandleKind::center ? 1.0 : 0.0;
@@ -172,9 +184,9 @@ bool TransformTool::press(const PointerEvent& event) {
 
 double TransformTool::angle_at(QPointF position) const {
     // The ring's point that shows nearest to the mouse in direction from the pivot.
-    const QPointF center = context_.canvas.to_display(pivot_), mouse = position - center;
+    const QPointF center = context_.canvas.to_display(handles_at_), mouse = position - center;
     const double reach = std::hypot(mouse.x(), mouse.y());
-    const auto ring = shape_of(held_, pivot_);
+    const auto ring = shape_of(held_, handles_at_);
     double best = -2.0, angle = 0.0;
     for (int i = 0; i < ring_pieces; ++i) {
         const QPointF way = context_.canvas.to_display(ring[static_cast<std::size_t>(i)]) - center;
@@ -192,8 +204,8 @@ double TransformTool::angle_at(QPointF position) const {
 }
 
 double TransformTool::place_on_axis(QPointF position, int axis) const {
-    const QPointF origin = context_.canvas.to_display(pivot_);
-    const QPointF way = context_.canvas.to_display(pivot_ + length_ * axis_vector(axis)) - origin;
+    const QPointF origin = context_.canvas.to_display(handles_at_);
+    const QPointF way = context_.canvas.to_display(handles_at_ + length_ * axis_vector(axis)) - origin;
     const double square = QPointF::dotProduct(way, way);
     return square > 25.0 ? length_ * QPointF::dotProduct(position - origin, way) / square : 0.0;
 }
@@ -302,7 +314,7 @@ void TransformTool::show(const Coordinates& positions) {
                      set.weights[i]});
         // A turned or scaled set keeps its middle, a moved one takes the handles along.
         const Eigen::RowVector3d pivot =
-            is_held_ && held_.kind != HandleKind::arrow ? pivot_ : middle_of_selection(positions);
+            is_held_ && held_.kind != HandleKind::arrow ? handles_at_ : place_of_handles(positions);
         constexpr MarkRole roles[] = {MarkRole::axis_x, MarkRole::axis_y, MarkRole::axis_z};
         for (const Handle& handle : handles()) {
             const bool is_active = is_held_ ? handle == held_ : hovered_ == handle;

@@ -42,6 +42,8 @@ class TransformTool : public Tool {
     double place_on_axis(QPointF position, int axis) const;
     AffineMotion motion_of(const PointerEvent& event);
     Eigen::RowVector3d middle_of_selection(const Coordinates& positions) const;
+    /// Where the handles are: in the middle of the selection, or as near to it as all of them are in view.
+    Eigen::RowVector3d place_of_handles(const Coordinates& positions) const;
     DragRequest make_request() const;
     void show(const Coordinates& positions);
 
@@ -50,6 +52,7 @@ class TransformTool : public Tool {
     bool is_held_ = false;
     Handle held_{HandleKind::arrow, 0};
     Eigen::RowVector3d pivot_ = Eigen::RowVector3d::Zero();  ///< where the drag began
+    Eigen::RowVector3d handles_at_ = Eigen::RowVector3d::Zero();  ///< where they were when the drag began
     double length_ = 1.0;                                    ///< of an arrow then, mesh units
     double start_ = 0.0, value_ = 0.0, last_angle_ = 0.0;    ///< angle or place; value: what is told and named
     QPointF press_;

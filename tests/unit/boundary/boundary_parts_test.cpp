@@ -45,6 +45,32 @@ TEST(BoundaryParts, CubeHasSixFaces) {
     }
 }
 
+TEST(BoundaryParts, EdgesOfACubeAreTwelveFeatureLines) {
+    for (const int order : {1, 3}) {
+        const CurvedMesh mesh = cube_mesh(2, order);
+        const BoundaryParts parts(mesh);
+        const auto sides = [&](Index node) {
+            int count = 0;
+            for (int d = 0; d < 3; ++d) {
+                const double x = mesh.coordinates()(node, d);
+                count += x == 0.0 || x == 1.0;
+            }
+            return count;
+        };
+        for (const Index node : mesh.topology().boundary_nodes()) {
+            const auto line = parts.feature_line_nodes_around(node);
+            const std::size_t on_one = static_cast<std::size_t>(2 * order + 1);
+            // Inside a face none, on an edge that edge, in a corner the three that meet there.
+            EXPECT_EQ(line.size(), sides(node) == 1 ? 0u : sides(node) == 2 ? on_one : 3 * on_one - 2);
+            for (const Index other : line) EXPECT_GE(sides(other), 2);
+        }
+        for (const Index node : mesh.topology().interior_nodes())
+            EXPECT_TRUE(parts.feature_line_nodes_around(node).empty());
+    }
+    const CurvedMesh square = square_mesh(2, 2);
+    EXPECT_TRUE(BoundaryParts(square).feature_line_nodes_around(square.topology().boundary_nodes().front()).empty());
+}
+
 TEST(BoundaryParts, TheFeatureAngleDecides) {
     // The square's right side bent outward to a circular arc of 60 degrees against its neighbours: 90 - 60 = 30 or less
     // is left of two of its corners.
