@@ -126,7 +126,8 @@ void MainWindow::connect_commands() {
     for (const auto& entry : look_commands)
         on(entry.command, [this, direction = entry.direction] { view_->look(direction); });
     for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip,
-                               CommandId::shrink, CommandId::worst_only})
+                               CommandId::shrink, CommandId::worst_only, CommandId::node_numbers,
+                               CommandId::element_numbers, CommandId::orthographic})
         connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
     for (const auto& entry : theme_choices)
         connect(actions_[entry.command], &QAction::toggled, this, [this, entry](bool is_on) {
@@ -252,12 +253,14 @@ void MainWindow::update_commands() {
                                CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
-                               CommandId::legend, CommandId::shrink, CommandId::compare})
+                               CommandId::legend, CommandId::shrink, CommandId::compare, CommandId::node_numbers,
+                               CommandId::element_numbers})
         actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
     for (const auto& entry : look_commands)
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
     actions_[CommandId::clip]->setEnabled(is_3d);
+    actions_[CommandId::orthographic]->setEnabled(is_3d);
     actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
@@ -295,6 +298,9 @@ void MainWindow::update_options() {
     options.show_edges = actions_[CommandId::edges]->isChecked();
     options.show_nodes = actions_[CommandId::nodes]->isChecked();
     options.show_legend = actions_[CommandId::legend]->isChecked();
+    options.show_node_numbers = actions_[CommandId::node_numbers]->isChecked();
+    options.show_element_numbers = actions_[CommandId::element_numbers]->isChecked();
+    options.is_orthographic = actions_[CommandId::orthographic]->isChecked();
     options.background = to_color(theme_.color(QStringLiteral("view")));
     options.foreground = to_color(theme_.color(QStringLiteral("text")));
     options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));
@@ -310,6 +316,7 @@ void MainWindow::update_options() {
         plane.normal = {0.0, 0.0, 0.0};
         plane.normal[static_cast<std::size_t>(setting.axis)] = setting.is_flipped ? -1.0 : 1.0;
         plane.position = setting.is_flipped ? 1.0 - setting.position : setting.position;
+        plane.style = setting.is_through ? ClipStyle::cut : ClipStyle::whole_elements;
         options.clip = plane;
     }
     view_->set_options(options);

@@ -34,6 +34,8 @@ constexpr double halo_radius = 1.9;   ///< units of the pixel ratio
 constexpr double node_distance = 4.0; ///< of a node's number from the node, units of the pixel ratio
 constexpr double cell_size = 3.0;     ///< of the grid that tells what is taken, units of the pixel ratio
 constexpr int depth_step = 4;         ///< pixels per sample of what hides numbers
+/// Steps of the distance between the nearest and the farthest, and how many of them count as about the same.
+constexpr int depth_steps = 4000, depth_layer = 200;
 /// How far behind the surface a number may be and still be seen, world units: a little more than chords are off.
 constexpr double hiding_depth = 0.004;
 
@@ -220,16 +222,19 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
                 if (surface->is_behind(there[0], there[1], labels_[i].world, hiding_depth)) continue;
             }
             candidates[i] = {static_cast<float>(at[0]), static_cast<float>(at[1]),
-                             static_cast<int>(2000.0 * (1.0 + std::clamp(at[2], -1.0, 1.0)))};
+                             static_cast<int>(0.5 * depth_steps * (1.0 + std::clamp(at[2], -1.0, 1.0)))};
         }
     });
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < candidates.size(); ++i)
         if (candidates[i].depth >= 0) order.push_back(i);
-    // Those of elements have one place only and go before those of nodes beside them.
+    // Those of elements have one place only and go before those of nodes at about the same distance.
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-        return std::tuple(candidates[a].depth, labels_[a].kind == NumberKind::node, a) <
-               std::tuple(candidates[b].depth, labels_[b].kind == NumberKind::node, b);
+        const auto rank = [&](std::size_t i) {
+            return std::tuple(candidates[i].depth / depth_layer, labels_[i].kind == NumberKind::node,
+                              candidates[i].depth, i);
+        };
+        return rank(a) < rank(b);
     });
 
     const double cell = cell_size * view.pixel_ratio;
