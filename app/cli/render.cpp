@@ -79,8 +79,10 @@ void add_render(CLI::App& app, Invocation& invocation) {
     command->add_flag_function(
         "--no-legend", [options](std::int64_t) { options->scene.show_legend = false; }, "Leave out the legend");
     command->add_flag("--node-numbers", options->scene.show_node_numbers, "Write the tags of the nodes beside them");
-    command->add_flag("--element-numbers", options->scene.show_element_numbers, "Write the tags of the elements on them");
-    command->add_flag("--orthographic", options->scene.is_orthographic, "3D: parallel projection instead of perspective");
+    command->add_flag("--element-numbers", options->scene.show_element_numbers,
+                      "Write the tags of the elements on them");
+    command->add_flag("--orthographic", options->scene.is_orthographic,
+                      "3D: parallel projection instead of perspective");
     const auto add_clip = [&](const char* name, ClipStyle style, const char* help) {
         return command
             ->add_option_function<std::string>(
@@ -99,12 +101,17 @@ void add_render(CLI::App& app, Invocation& invocation) {
     };
     CLI::Option* clip = add_clip("--clip", ClipStyle::whole_elements,
                                  "3D: hide the elements beyond a plane across x, y or z (in the middle)");
-    CLI::Option* cut = add_clip("--cut", ClipStyle::cut, "3D: cut through the elements at that plane and show the section");
+    CLI::Option* cut =
+        add_clip("--cut", ClipStyle::cut, "3D: cut through the elements at that plane and show the section");
     cut->excludes(clip);
     command
         ->add_option("--clip-at", options->clip_position,
                      "Where the plane of --clip or --cut stands: fraction of the mesh's extent (default 0.5)")
         ->check(CLI::Range(0.0, 1.0));
+    command->parse_complete_callback([command] {
+        if (command->count("--clip-at") > 0 && command->count("--clip") + command->count("--cut") == 0)
+            throw CLI::ValidationError("--clip-at", "is for --clip or --cut");
+    });
     set_action(*command, invocation, options, run);
 }
 

@@ -331,9 +331,7 @@ class ElementCutter {
                 else
                     far[fars++] = corner;
             if (nears == 0 || fars == 0) continue;
-            const auto point = [&](int a, int b) {
-                return crossing(tetrahedron.sides[side_between[a][b]], section);
-            };
+            const auto point = [&](int a, int b) { return crossing(tetrahedron.sides[side_between[a][b]], section); };
             const auto& start = lattice_->points[static_cast<std::size_t>(tetrahedron.corners[near[0]])];
             const auto& end = lattice_->points[static_cast<std::size_t>(tetrahedron.corners[far[0]])];
             const Eigen::Vector3d across(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
@@ -356,7 +354,8 @@ class ElementCutter {
                 int found = 0;
                 for (int i = 0; i < nears; ++i)
                     for (int j = 0; j < fars; ++j)
-                        if (near[i] != opposite && far[j] != opposite && found < 2) ends[found++] = point(near[i], far[j]);
+                        if (near[i] != opposite && far[j] != opposite && found < 2)
+                            ends[found++] = point(near[i], far[j]);
                 if (found == 2 && ends[0] != ends[1]) segments_[facet].push_back(ends);
             }
         }
@@ -456,8 +455,7 @@ PlaneCut::PlaneCut(const CurvedMesh& mesh, const CuttingPlane& plane, const std:
     if (topology.dimension() != 3) return;
 
     const double diagonal = (box.row(1) - box.row(0)).norm();
-    const double rounding =
-        64.0 * std::numeric_limits<double>::epsilon() * (origin_.cwiseAbs().maxCoeff() + diagonal);
+    const double rounding = 64.0 * std::numeric_limits<double>::epsilon() * (origin_.cwiseAbs().maxCoeff() + diagonal);
     const double zero = std::max(plane_tolerance * diagonal, rounding);
     const double offset = plane.offset - plane.normal.dot(origin_);
     const Coordinates& coordinates = mesh.coordinates();

@@ -167,8 +167,8 @@ class InsideTest : public QObject {
             auto element = clicks.takeLast().at(0).value<std::optional<Index>>();
             QVERIFY(element && test.extent(*element, 1)[0] < 1e-9);
             const double unit = test.view().units_per_pixel({0.5, 0.5, 0.5});
-            QWheelEvent wheel(test.place_of({1.0, 0.0, 1.0}), test.view().mapToGlobal(test.place_of({1.0, 0.0, 1.0})), {},
-                              {0, 240}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
+            QWheelEvent wheel(test.place_of({1.0, 0.0, 1.0}), test.view().mapToGlobal(test.place_of({1.0, 0.0, 1.0})),
+                              {}, {0, 240}, Qt::NoButton, {}, Qt::NoScrollPhase, false);
             const QPointF corner = test.view().to_display({1.0, 0.0, 1.0});
             QApplication::sendEvent(&test.view(), &wheel);
             QTest::qWait(50);

@@ -40,7 +40,8 @@ bool is_inside(const CurvedMesh& mesh, Index element, const Eigen::RowVector3d& 
     Eigen::Vector3d at = Eigen::Vector3d::Constant(0.25);
     double distance = 1.0;
     for (int step = 0; step < 20 && distance > 1e-12; ++step) {
-        const BasisTable table = lagrange_basis(mesh.topology().element_type(element), Eigen::MatrixX3d(at.transpose()));
+        const BasisTable table =
+            lagrange_basis(mesh.topology().element_type(element), Eigen::MatrixX3d(at.transpose()));
         const Eigen::Vector3d rest = (table.values * x - point).transpose();
         distance = rest.norm();
         Eigen::Matrix3d jacobian;
@@ -89,7 +90,8 @@ TEST(Cut, WhatIsCutAwayIsNotPicked) {
     Index top = 0, bottom = 0;
     for (Index node = 0; node < its.mesh.topology().node_count(); ++node) {
         const auto& x = its.mesh.coordinates();
-        if (x.row(node).dot(Eigen::RowVector3d(0, 0.8, 0.6)) > x.row(top).dot(Eigen::RowVector3d(0, 0.8, 0.6))) top = node;
+        if (x.row(node).dot(Eigen::RowVector3d(0, 0.8, 0.6)) > x.row(top).dot(Eigen::RowVector3d(0, 0.8, 0.6)))
+            top = node;
         if (x.row(node).dot(Eigen::RowVector3d(0, 0.8, -0.6)) > x.row(bottom).dot(Eigen::RowVector3d(0, 0.8, -0.6)))
             bottom = node;
     }

@@ -51,7 +51,8 @@ TEST(Orthographic, TheWholeMeshFitsFromEverySide) {
         ball = ball.with_coordinates(unit * ball.coordinates());
         Window its(ball);
         its.scene.set_options(orthographic());
-        for (const ViewDirection direction : {ViewDirection::isometric, ViewDirection::plus_x, ViewDirection::minus_z}) {
+        for (const ViewDirection direction :
+             {ViewDirection::isometric, ViewDirection::plus_x, ViewDirection::minus_z}) {
             its.scene.look(direction);
             its.frame_start();
             const Box box = shown_box(its);

@@ -126,8 +126,9 @@ void MainWindow::connect_commands() {
     for (const auto& entry : look_commands)
         on(entry.command, [this, direction = entry.direction] { view_->look(direction); });
     for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip,
-                               CommandId::shrink, CommandId::worst_only, CommandId::node_numbers,
-                               CommandId::element_numbers, CommandId::orthographic})
+                               CommandId::shrink, CommandId::worst_only})
+        connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
+    for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers, CommandId::orthographic})
         connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
     for (const auto& entry : theme_choices)
         connect(actions_[entry.command], &QAction::toggled, this, [this, entry](bool is_on) {
@@ -253,9 +254,9 @@ void MainWindow::update_commands() {
                                CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
-                               CommandId::legend, CommandId::shrink, CommandId::compare, CommandId::node_numbers,
-                               CommandId::element_numbers})
+                               CommandId::legend, CommandId::shrink, CommandId::compare})
         actions_[id]->setEnabled(has_mesh);
+    for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers}) actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
     for (const auto& entry : look_commands)
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);

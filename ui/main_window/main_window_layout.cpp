@@ -249,7 +249,10 @@ void MainWindow::restore_layout() {
     const struct {
         CommandId id;
         bool is_on;
-    } defaults[] = {{CommandId::edges, true}, {CommandId::nodes, false}, {CommandId::legend, true}, {CommandId::orthographic, false}};
+    } defaults[] = {{CommandId::edges, true},
+                    {CommandId::nodes, false},
+                    {CommandId::legend, true},
+                    {CommandId::orthographic, false}};
     for (const auto& entry : defaults)
         actions_[entry.id]->setChecked(
             settings.value(QStringLiteral("view/") + actions_[entry.id]->objectName(), entry.is_on).toBool());

@@ -226,8 +226,7 @@ ViewMetrics CameraControl::metrics(double pixel_ratio) const {
     view.size = viewport();
     view.pixel_ratio = pixel_ratio;
     view.is_parallel = is_parallel();
-    view.pixel_scale = 0.5 * view.size[1] /
-                       (is_parallel() ? camera->GetParallelScale() : slope());
+    view.pixel_scale = 0.5 * view.size[1] / (is_parallel() ? camera->GetParallelScale() : slope());
     const double aspect = static_cast<double>(view.size[0]) / view.size[1];
     const vtkMatrix4x4* matrix = camera->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0);
     for (int i = 0; i < 4; ++i)

@@ -39,8 +39,7 @@ std::vector<float> line_spacing(const CurvedMesh& mesh, const Tessellation& tess
 std::vector<float> line_spacing(const CurvedMesh& mesh, const std::vector<Index>& elements) {
     std::vector<float> spacing;
     spacing.reserve(elements.size());
-    for (Index element : elements)
-        spacing.push_back(static_cast<float>(element_spacing(mesh, element)));
+    for (Index element : elements) spacing.push_back(static_cast<float>(element_spacing(mesh, element)));
     return spacing;
 }
 

@@ -108,7 +108,7 @@ struct MeshScene::Parts {
     WorldFrame frame;
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
-    std::unique_ptr<PlaneCut> section;  ///< none: nothing is cut
+    std::unique_ptr<PlaneCut> section;                            ///< none: nothing is cut
     double typical_spacing = 0.0;                                 ///< world
     std::chrono::steady_clock::time_point next_fineness_check{};  ///< of a motion
     std::chrono::steady_clock::time_point next_section{};         ///< of a motion
@@ -286,8 +286,7 @@ struct MeshScene::Parts {
             for (const Index node : tessellation->nodes()) {
                 const Eigen::RowVector3d at = mesh->coordinates().row(node);
                 if (section && section->plane().distance(at) > 0.0) continue;
-                labels.push_back(
-                    {NumberKind::node, mesh->topology().node_tag(node).value, node, frame.to_world(at)});
+                labels.push_back({NumberKind::node, mesh->topology().node_tag(node).value, node, frame.to_world(at)});
             }
         numbers.set_labels(std::move(labels));
     }
@@ -332,8 +331,7 @@ struct MeshScene::Parts {
             constexpr auto quick = std::chrono::milliseconds(25);
             next_section = end - start <= quick ? end : end + 2 * (end - start);
         }
-        if (quality && has_new_quality)
-            marks.set_mesh(*mesh, *quality, visible, *tessellation, section.get(), frame);
+        if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, section.get(), frame);
         if (!highlighted.empty()) draw_highlight();
         set_numbers();
     }
@@ -536,7 +534,8 @@ void MeshScene::focus_ball(const Eigen::RowVector3d& center, double radius) {
 
 bool MeshScene::draws_element(Index element) const {
     if (!parts_->tessellation) return false;
-    if (const PlaneCut* section = parts_->section.get(); section && element >= 0 && element < Index(section->sides().size())) {
+    if (const PlaneCut* section = parts_->section.get();
+        section && element >= 0 && element < Index(section->sides().size())) {
         const PlaneCut::Side side = section->sides()[static_cast<std::size_t>(element)];
         if (side != PlaneCut::Side::kept) return side == PlaneCut::Side::cut;
     }
@@ -581,8 +580,8 @@ Eigen::Matrix3d MeshScene::view_axes() const {
 std::optional<Index> MeshScene::pick_node(double x, double y, double radius,
                                           const std::function<bool(Index)>& accepts) const {
     if (!parts_->tessellation) return std::nullopt;
-    return pick_drawn_node(*parts_->mesh, parts_->drawn(), parts_->frame, parts_->view(), x, y, radius,
-                           !is_flat(), accepts);
+    return pick_drawn_node(*parts_->mesh, parts_->drawn(), parts_->frame, parts_->view(), x, y, radius, !is_flat(),
+                           accepts);
 }
 
 std::vector<Index> MeshScene::nodes_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const {
@@ -594,8 +593,7 @@ std::vector<Index> MeshScene::nodes_inside(const std::vector<std::array<double, 
 std::vector<Index> MeshScene::elements_inside(const std::vector<std::array<double, 2>>& polygon,
                                               bool see_through) const {
     if (!parts_->tessellation) return {};
-    return pick_elements_inside(parts_->drawn(), parts_->frame, parts_->view(), polygon,
-                                !is_flat() && !see_through);
+    return pick_elements_inside(parts_->drawn(), parts_->frame, parts_->view(), polygon, !is_flat() && !see_through);
 }
 
 void MeshScene::copy_view(const MeshScene& other, bool is_exact) {

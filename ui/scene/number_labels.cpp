@@ -29,11 +29,11 @@ namespace {
 
 constexpr char characters[] = "0123456789-";
 constexpr int character_count = 11;
-constexpr double digit_size = 11.5;   ///< units of the pixel ratio
-constexpr double halo_radius = 1.9;   ///< units of the pixel ratio
-constexpr double node_distance = 4.0; ///< of a node's number from the node, units of the pixel ratio
-constexpr double cell_size = 3.0;     ///< of the grid that tells what is taken, units of the pixel ratio
-constexpr int depth_step = 4;         ///< pixels per sample of what hides numbers
+constexpr double digit_size = 11.5;    ///< units of the pixel ratio
+constexpr double halo_radius = 1.9;    ///< units of the pixel ratio
+constexpr double node_distance = 4.0;  ///< of a node's number from the node, units of the pixel ratio
+constexpr double cell_size = 3.0;      ///< of the grid that tells what is taken, units of the pixel ratio
+constexpr int depth_step = 4;          ///< pixels per sample of what hides numbers
 /// Steps of the distance between the nearest and the farthest, and how many of them count as about the same.
 constexpr int depth_steps = 4000, depth_layer = 200;
 /// How far behind the surface a number may be and still be seen, world units: a little more than chords are off.
@@ -55,8 +55,7 @@ struct Glyph {
     std::vector<float> coverage;
 
     float at(int x, int y) const {
-        return x < 0 || y < 0 || x >= width || y >= height ? 0.0f
-                                                           : coverage[static_cast<std::size_t>(y * width + x)];
+        return x < 0 || y < 0 || x >= width || y >= height ? 0.0f : coverage[static_cast<std::size_t>(y * width + x)];
     }
 };
 
@@ -167,8 +166,8 @@ void NumberLabels::make_digits(double pixel_ratio) {
                     for (int layer = 0; layer < 2; ++layer) {
                         const Color& color = layer == 0 ? background_ : inks[kind];
                         const double opacity = layer == 0 ? 0.88 * halo : glyph.at(gx, gy);
-                        auto* pixel = static_cast<unsigned char*>(image->GetScalarPointer(
-                            i * cell_width_ + x, (2 * kind + layer) * cell_height_ + y, 0));
+                        auto* pixel = static_cast<unsigned char*>(
+                            image->GetScalarPointer(i * cell_width_ + x, (2 * kind + layer) * cell_height_ + y, 0));
                         for (std::size_t c = 0; c < 3; ++c)
                             pixel[c] = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[c], 0.0, 1.0)));
                         pixel[3] = static_cast<unsigned char>(std::lround(255.0 * std::clamp(opacity, 0.0, 1.0)));
@@ -264,7 +263,8 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
         }
         const int length = static_cast<int>(std::to_string(label.number).size());
         const int box_width = length * advance_[kind] + 2 * halo_, box_height = height_[kind] + 2 * halo_;
-        const int x = static_cast<int>(std::lround(candidates[i].x)), y = static_cast<int>(std::lround(candidates[i].y));
+        const int x = static_cast<int>(std::lround(candidates[i].x)),
+                  y = static_cast<int>(std::lround(candidates[i].y));
         const auto box_at = [&](int left, int bottom) {
             return std::array{left, bottom, left + box_width, bottom + box_height};
         };

@@ -24,8 +24,8 @@ struct Pick {
 
 /// The element whose surface is in front at a display position (device pixels). Where surfaces lie at the same depth
 /// (2D: tangled elements overlap their neighbours) the one with the higher rank is taken.
-std::optional<Pick> pick_surface(const DrawnSurface& surface, const WorldFrame& frame, const ViewMetrics& view, double x,
-                                 double y, const std::function<int(Index element)>& rank);
+std::optional<Pick> pick_surface(const DrawnSurface& surface, const WorldFrame& frame, const ViewMetrics& view,
+                                 double x, double y, const std::function<int(Index element)>& rank);
 
 /// How far from the eye the drawn surface is within a box of the display: tells what it hides.
 class DepthMap {

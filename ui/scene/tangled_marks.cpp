@@ -151,8 +151,8 @@ void TangledMarks::set_mesh(const CurvedMesh& mesh, const QualityReport& quality
         const double radius = (x.rowwise() - center).rowwise().norm().maxCoeff() / frame.size;
         if (section && section->sides()[static_cast<std::size_t>(element)] == PlaneCut::Side::cut) {
             const auto& box = section_boxes[static_cast<std::size_t>(element)];
-            marks_.push_back({frame.to_world(0.5 * (box[0] + box[1])), 0.5 * (box[1] - box[0]).norm() / frame.size,
-                              false});
+            marks_.push_back(
+                {frame.to_world(0.5 * (box[0] + box[1])), 0.5 * (box[1] - box[0]).norm() / frame.size, false});
             continue;
         }
         marks_.push_back({frame.to_world(center), radius, !is_on_surface[element]});

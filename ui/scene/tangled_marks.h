@@ -18,8 +18,8 @@ class TangledMarks {
     explicit TangledMarks(vtkRenderer* renderer);
 
     /// visible: one flag per element; empty = all. drawn: the surface of the visible elements. A tangled element that
-    /// has no part in it lies inside the mesh: its ring is dotted and always there. section: where the mesh is cut, null
-    /// = nowhere; elements beyond it have no marks.
+    /// has no part in it lies inside the mesh: its ring is dotted and always there. section: where the mesh is cut,
+    /// null = nowhere; elements beyond it have no marks.
     void set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
                   const Tessellation& drawn, const PlaneCut* section, const WorldFrame& frame);
     void clear();

@@ -136,12 +136,13 @@ TEST(SolidBasis, PyramidsInterpolateAndMatchTheirFaces) {
         for (const SubElement& facet : element.facets) {
             Eigen::MatrixX3d corners(3, 3);
             for (int i = 0; i < 3; ++i) {
-                const LatticePoint& at = element.lattice[facet.nodes[facet.type.shape == Shape::quadrilateral && i == 2 ? 3 : i]];
+                const LatticePoint& at =
+                    element.lattice[facet.nodes[facet.type.shape == Shape::quadrilateral && i == 2 ? 3 : i]];
                 corners.row(i) << at[0] / double(order), at[1] / double(order), at[2] / double(order);
             }
             const Eigen::MatrixX3d inside{{0.23, 0.41, 0.0}};
-            const Eigen::RowVector3d at = corners.row(0) + 0.23 * (corners.row(1) - corners.row(0)) +
-                                          0.41 * (corners.row(2) - corners.row(0));
+            const Eigen::RowVector3d at =
+                corners.row(0) + 0.23 * (corners.row(1) - corners.row(0)) + 0.41 * (corners.row(2) - corners.row(0));
             basis.evaluate({at[0], at[1], at[2]}, values.data());
             const BasisTable face = lagrange_basis(facet.type, inside);
             for (std::size_t i = 0; i < facet.nodes.size(); ++i) {
@@ -374,8 +375,7 @@ TEST(PlaneCut, UnitOffsetAndThreadsDoNotMatter) {
         Coordinates x = unit * ball.coordinates();
         const Eigen::RowVector3d shift(1e3 * unit, -2e3 * unit, 0.0);
         x.rowwise() += shift;
-        const PlaneCut cut(ball.with_coordinates(x),
-                           {plane.normal, plane.offset * unit + plane.normal.dot(shift)});
+        const PlaneCut cut(ball.with_coordinates(x), {plane.normal, plane.offset * unit + plane.normal.dot(shift)});
         EXPECT_NEAR(area(cut) / (unit * unit), area(reference), 1e-5);
     }
     set_thread_count(1);
