@@ -405,7 +405,7 @@ struct MeshScene::Parts {
         marks.update(view);
         edit_marks.update(view);
         const std::optional<DrawnSurface> hiding = tessellation && !is_flat() ? std::optional(drawn()) : std::nullopt;
-        numbers.update(view, hiding ? &*hiding : nullptr, frame, legend.width(ratio));
+        numbers.update(view, hiding ? &*hiding : nullptr, frame, {legend.width(ratio), axes.size(ratio)});
         legend.update(view);
         axes.update(view);
     }

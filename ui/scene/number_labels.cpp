@@ -179,26 +179,25 @@ void NumberLabels::make_digits(double pixel_ratio) {
 }
 
 void NumberLabels::update(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame,
-                          double right_margin) {
+                          const Margins& margins) {
     if (labels_.empty()) {
         actor_->VisibilityOff();
         placed_.clear();
         return;
     }
-    if (!is_stale_ && digits_ratio_ == view.pixel_ratio && seen_size_ == view.size && seen_margin_ == right_margin &&
+    if (!is_stale_ && digits_ratio_ == view.pixel_ratio && seen_size_ == view.size && margins_ == margins &&
         seen_matrix_ == view.world_to_clip)
         return;
     if (digits_ratio_ != view.pixel_ratio) make_digits(view.pixel_ratio);
     is_stale_ = false;
     seen_size_ = view.size;
-    seen_margin_ = right_margin;
+    margins_ = margins;
     seen_matrix_ = view.world_to_clip;
-    place(view, hiding, frame, right_margin);
+    place(view, hiding, frame);
     draw();
 }
 
-void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame,
-                         double right_margin) {
+void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame) {
     struct Candidate {
         float x = 0.0f, y = 0.0f;
         int depth = -1;  ///< steps from the eye; -1 = not seen
@@ -210,7 +209,7 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
         surface.emplace(*hiding, frame, coarse, std::array{0.0, 0.0},
                         std::array{static_cast<double>(coarse.size[0]), static_cast<double>(coarse.size[1])});
     }
-    const double width = view.size[0] - right_margin;
+    const double width = view.size[0] - margins_.right;
     std::vector<Candidate> candidates(labels_.size());
     parallel_for(labels_.size(), 2048, {}, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
@@ -242,6 +241,7 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
     std::vector<bool> has_label;
     const auto try_place = [&](const std::array<int, 4>& box) {
         if (box[0] < 0 || box[1] < 0 || box[2] > width || box[3] > view.size[1]) return false;
+        if (box[0] < margins_.corner && box[1] < margins_.corner) return false;
         const int left = static_cast<int>(box[0] / cell), right = static_cast<int>(box[2] / cell);
         const int bottom = static_cast<int>(box[1] / cell), top = static_cast<int>(box[3] / cell);
         for (int y = bottom; y <= std::min(top, rows - 1); ++y)

@@ -39,9 +39,13 @@ class NumberLabels {
 
     void set_colors(const Color& background, const Color& foreground, const Color& accent);
     void set_labels(std::vector<NumberLabel> labels);
-    /// Before every frame. hiding: what numbers can be behind; null = nothing hides them. right_margin: strip that is
-    /// not for them, device pixels.
-    void update(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame, double right_margin);
+    /// What is not for numbers, device pixels: a strip at the right and a square in the lower left corner.
+    struct Margins {
+        double right = 0.0, corner = 0.0;
+        friend bool operator==(const Margins&, const Margins&) = default;
+    };
+    /// Before every frame. hiding: what numbers can be behind; null = nothing hides them.
+    void update(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame, const Margins& margins);
 
     struct Placed {
         NumberKind kind = NumberKind::node;
@@ -54,7 +58,7 @@ class NumberLabels {
 
   private:
     void make_digits(double pixel_ratio);
-    void place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame, double right_margin);
+    void place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame);
     void draw();
 
     std::vector<NumberLabel> labels_;
@@ -64,7 +68,7 @@ class NumberLabels {
     bool is_stale_ = false;
     std::array<int, 2> seen_size_{0, 0};
     Eigen::Matrix4d seen_matrix_ = Eigen::Matrix4d::Zero();
-    double seen_margin_ = 0.0;
+    Margins margins_;
 
     double digits_ratio_ = 0.0;  ///< pixel ratio that the texture was made for; 0 = none yet
     /// Per kind, device pixels: advance of a digit, height of its ink, room for the halo around it.
