@@ -73,6 +73,23 @@ class InsideTest : public QObject {
         QVERIFY(again.view().options().clip->style == ClipStyle::whole_elements);
     }
 
+    void the_bar_fits_into_half_the_window() {
+        InsideUnderTest test;
+        test.click("tool_clip");
+        const int wide = test.find<QWidget>("clip_bar")->width();
+        test.window->action(CommandId::compare)->trigger();
+        QTest::qWait(100);
+        auto* bar = test.find<QWidget>("clip_bar");
+        QVERIFY(bar->width() < wide);
+        QVERIFY2(bar->geometry().right() < test.view().width(),
+                 qPrintable(QStringLiteral("%1 %2").arg(bar->geometry().right()).arg(test.view().width())));
+        test.click("clip_through");
+        QVERIFY(test.view().options().clip->style == ClipStyle::cut);
+        test.window->action(CommandId::compare)->trigger();
+        QTest::qWait(100);
+        QCOMPARE(bar->width(), wide);
+    }
+
     void a_click_on_the_section_tells_about_the_element_there() {
         InsideUnderTest test;
         test.click("tool_clip");

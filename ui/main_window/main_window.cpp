@@ -391,8 +391,11 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void MainWindow::place_clip_bar() {
-    clip_bar_->adjustSize();
-    clip_bar_->move(12, 12);
+    constexpr int margin = 12, room_for_slider = 80;
+    const QSize least = clip_bar_->minimumSizeHint();
+    clip_bar_->resize(std::clamp(view_->width() - 2 * margin, least.width(), least.width() + room_for_slider),
+                      least.height());
+    clip_bar_->move(margin, margin);
 }
 
 }  // namespace curvewright

@@ -38,7 +38,7 @@ ClipBar::ClipBar(const Theme& theme, QWidget* parent) : QWidget(parent) {
     slider_->setObjectName(QStringLiteral("clip_position"));
     slider_->setRange(0, 200);
     slider_->setValue(100);
-    slider_->setMinimumWidth(160);
+    slider_->setMinimumWidth(80);  // the bar gives it more where the view is wide enough
     layout->addWidget(slider_, 1);
     flip_ = new QToolButton;
     flip_->setCheckable(true);
