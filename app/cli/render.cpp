@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@ struct Options {
     std::filesystem::path mesh, output;
     int width = 1200, height = 900;
     SceneOptions scene;
+    std::optional<double> clip_position;
 };
 
 /// "WxH".
@@ -40,6 +42,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     MeshScene scene;
     SceneOptions scene_options = options.scene;
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
+    if (ClipPlane* clip = scene_options.clip ? &*scene_options.clip : nullptr; clip && options.clip_position) {
+        const bool is_flipped = clip->normal[0] + clip->normal[1] + clip->normal[2] < 0.0;
+        clip->position = is_flipped ? 1.0 - *options.clip_position : *options.clip_position;
+    }
     if (mesh.topology().dimension() != 3) scene_options.clip.reset();
     scene.set_options(scene_options);
     scene.set_mesh(&mesh, quality ? &*quality : nullptr);
@@ -72,17 +78,40 @@ void add_render(CLI::App& app, Invocation& invocation) {
         "Leave out the edges of the elements");
     command->add_flag_function(
         "--no-legend", [options](std::int64_t) { options->scene.show_legend = false; }, "Leave out the legend");
+    command->add_flag("--node-numbers", options->scene.show_node_numbers, "Write the tags of the nodes beside them");
+    command->add_flag("--element-numbers", options->scene.show_element_numbers,
+                      "Write the tags of the elements on them");
+    command->add_flag("--orthographic", options->scene.is_orthographic,
+                      "3D: parallel projection instead of perspective");
+    const auto add_clip = [&](const char* name, ClipStyle style, const char* help) {
+        return command
+            ->add_option_function<std::string>(
+                name,
+                [options, style](const std::string& axis) {
+                    ClipPlane plane;
+                    plane.normal = {0.0, 0.0, 0.0};
+                    // A section is on the side of the eye, which looks from +x, -y and +z.
+                    const bool is_flipped = style == ClipStyle::cut && axis == "y";
+                    plane.normal[static_cast<std::size_t>(axis[0] - 'x')] = is_flipped ? -1.0 : 1.0;
+                    plane.style = style;
+                    options->scene.clip = plane;
+                },
+                help)
+            ->check(CLI::IsMember({"x", "y", "z"}));
+    };
+    CLI::Option* clip = add_clip("--clip", ClipStyle::whole_elements,
+                                 "3D: hide the elements beyond a plane across x, y or z (in the middle)");
+    CLI::Option* cut =
+        add_clip("--cut", ClipStyle::cut, "3D: cut through the elements at that plane and show the section");
+    cut->excludes(clip);
     command
-        ->add_option_function<std::string>(
-            "--clip",
-            [options](const std::string& axis) {
-                ClipPlane plane;
-                plane.normal = {0.0, 0.0, 0.0};
-                plane.normal[axis[0] - 'x'] = 1.0;
-                options->scene.clip = plane;
-            },
-            "3D: hide the half of the elements beyond the middle in x, y or z")
-        ->check(CLI::IsMember({"x", "y", "z"}));
+        ->add_option("--clip-at", options->clip_position,
+                     "Where the plane of --clip or --cut stands: fraction of the mesh's extent (default 0.5)")
+        ->check(CLI::Range(0.0, 1.0));
+    command->parse_complete_callback([command] {
+        if (command->count("--clip-at") > 0 && command->count("--clip") + command->count("--cut") == 0)
+            throw CLI::ValidationError("--clip-at", "is for --clip or --cut");
+    });
     set_action(*command, invocation, options, run);
 }
 

@@ -132,6 +132,29 @@ TEST_F(CommandLine, RenderNeedsNoDisplay) {
     expect_bad_input({"render", tangled, "-o", folder / "picture.jpg"}, "pictures are written as .png");
 }
 
+TEST_F(CommandLine, RenderLooksInside) {
+    const std::string screw = samples + "screw/screw.msh.gz";
+    std::vector<std::string> pictures;
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
+             {},
+             {"--clip", "z"},
+             {"--cut", "z"},
+             {"--cut", "z", "--clip-at", "0.3"},
+             {"--cut", "y", "--clip-at", "0.3"},
+             {"--orthographic"},
+             {"--node-numbers"},
+             {"--element-numbers"}}) {
+        const std::string picture = folder / "inside.png";
+        std::vector<std::string> arguments{"render", screw, "-o", picture, "--size", "320x240"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProcessResult result = cli(arguments);
+        ASSERT_EQ(result.status, 0) << result.errors;
+        pictures.push_back(read(picture));
+        for (std::size_t i = 0; i + 1 < pictures.size(); ++i)
+            EXPECT_NE(pictures.back(), pictures[i]) << options.front() << " shows what number " << i << " does";
+    }
+}
+
 TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
     const std::string out = folder / "out.msh", bad = folder / "bad.msh", deformation = folder / "d.json";
     expect_bad_input({"quality", folder / "missing.msh"}, "missing.msh");
@@ -275,6 +298,9 @@ TEST_F(CommandLine, WrongUsageEndsWithTwo) {
              {"untangle", annulus, "-o", "x.msh", "--max-passes", "0"},
              {"warp", annulus, "--deformation", annulus_deformation, "-o", "x.msh", "--distance-power", "9"},
              {"render", annulus, "-o", "x.png", "--size", "big"},
+             {"render", annulus, "-o", "x.png", "--cut", "x", "--clip", "y"},
+             {"render", annulus, "-o", "x.png", "--clip-at", "0.5"},
+             {"render", annulus, "-o", "x.png", "--cut", "x", "--clip-at", "2"},
              {"elevate", annulus, "-o", "x.msh"}}) {
         const ProcessResult result = cli(arguments);
         EXPECT_EQ(result.status, 2) << (arguments.empty() ? "" : arguments.back());

@@ -66,6 +66,43 @@ TEST(Images, ClippedBall) {
     check_against_baseline(scene, "ball_clipped");
 }
 
+TEST(Images, BallCutThrough) {
+    const CurvedMesh mesh = make_ball();
+    const QualityReport report = make_report(mesh, {150, 219, 326}, {134});
+    MeshScene scene;
+    SceneOptions options;
+    options.clip = ClipPlane{{0.0, -1.0, 0.0}, 0.55, ClipStyle::cut};
+    options.show_nodes = true;
+    scene.set_options(options);
+    scene.set_mesh(&mesh, &report);
+    scene.set_highlighted_elements({44});
+    check_against_baseline(scene, "ball_cut");
+}
+
+TEST(Images, NumbersOnARing) {
+    const CurvedMesh mesh = make_ring();
+    const QualityReport report = make_report(mesh, {tangled_ring_element}, {25});
+    MeshScene scene;
+    SceneOptions options;
+    options.show_nodes = options.show_node_numbers = options.show_element_numbers = true;
+    scene.set_options(options);
+    scene.set_mesh(&mesh, &report);
+    check_against_baseline(scene, "ring_numbers");
+}
+
+TEST(Images, OrthographicBallWithNumbersOnDark) {
+    const CurvedMesh mesh = make_ball();
+    const QualityReport report = make_report(mesh, {});
+    MeshScene scene;
+    SceneOptions options;
+    options.is_orthographic = options.show_element_numbers = true;
+    options.background = {0.12, 0.13, 0.15};
+    options.foreground = {0.92, 0.92, 0.92};
+    scene.set_options(options);
+    scene.set_mesh(&mesh, &report);
+    check_against_baseline(scene, "ball_orthographic_dark");
+}
+
 TEST(Images, WithoutAReport) {
     const CurvedMesh mesh = make_ball();
     MeshScene scene;

@@ -128,6 +128,8 @@ void MainWindow::connect_commands() {
     for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::clip,
                                CommandId::shrink, CommandId::worst_only})
         connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
+    for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers, CommandId::orthographic})
+        connect(actions_[id], &QAction::toggled, this, &MainWindow::update_options);
     for (const auto& entry : theme_choices)
         connect(actions_[entry.command], &QAction::toggled, this, [this, entry](bool is_on) {
             if (is_on && theme_.choice() != entry.choice) theme_.set_choice(entry.choice);
@@ -254,10 +256,12 @@ void MainWindow::update_commands() {
     for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
                                CommandId::legend, CommandId::shrink, CommandId::compare})
         actions_[id]->setEnabled(has_mesh);
+    for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers}) actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
     for (const auto& entry : look_commands)
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
     actions_[CommandId::clip]->setEnabled(is_3d);
+    actions_[CommandId::orthographic]->setEnabled(is_3d);
     actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
@@ -296,6 +300,9 @@ void MainWindow::update_options() {
     options.show_edges = actions_[CommandId::edges]->isChecked();
     options.show_nodes = actions_[CommandId::nodes]->isChecked();
     options.show_legend = actions_[CommandId::legend]->isChecked();
+    options.show_node_numbers = actions_[CommandId::node_numbers]->isChecked();
+    options.show_element_numbers = actions_[CommandId::element_numbers]->isChecked();
+    options.is_orthographic = actions_[CommandId::orthographic]->isChecked();
     options.background = to_color(theme_.color(QStringLiteral("view")));
     options.foreground = to_color(theme_.color(QStringLiteral("text")));
     options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));
@@ -311,6 +318,7 @@ void MainWindow::update_options() {
         plane.normal = {0.0, 0.0, 0.0};
         plane.normal[static_cast<std::size_t>(setting.axis)] = setting.is_flipped ? -1.0 : 1.0;
         plane.position = setting.is_flipped ? 1.0 - setting.position : setting.position;
+        plane.style = setting.is_through ? ClipStyle::cut : ClipStyle::whole_elements;
         options.clip = plane;
     }
     view_->set_options(options);
@@ -384,8 +392,11 @@ bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
 }
 
 void MainWindow::place_clip_bar() {
-    clip_bar_->adjustSize();
-    clip_bar_->move(12, 12);
+    constexpr int margin = 12, room_for_slider = 80;
+    const QSize least = clip_bar_->minimumSizeHint();
+    clip_bar_->resize(std::clamp(view_->width() - 2 * margin, least.width(), least.width() + room_for_slider),
+                      least.height());
+    clip_bar_->move(margin, margin);
 }
 
 }  // namespace curvewright

@@ -249,7 +249,10 @@ void MainWindow::restore_layout() {
     const struct {
         CommandId id;
         bool is_on;
-    } defaults[] = {{CommandId::edges, true}, {CommandId::nodes, false}, {CommandId::legend, true}};
+    } defaults[] = {{CommandId::edges, true},
+                    {CommandId::nodes, false},
+                    {CommandId::legend, true},
+                    {CommandId::orthographic, false}};
     for (const auto& entry : defaults)
         actions_[entry.id]->setChecked(
             settings.value(QStringLiteral("view/") + actions_[entry.id]->objectName(), entry.is_on).toBool());
@@ -261,7 +264,7 @@ void MainWindow::save_layout() const {
     settings.setValue(QStringLiteral("window/state"), saveState(layout_version));
     for (const QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_})
         settings.setValue(QStringLiteral("window/closed_") + dock->objectName(), dock->property("closed_by_user"));
-    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend})
+    for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::orthographic})
         settings.setValue(QStringLiteral("view/") + actions_[id]->objectName(), actions_[id]->isChecked());
 }
 

@@ -167,6 +167,7 @@ void MeshView::set_tool(Tool* tool) {
 }
 
 void MeshView::set_options(const SceneOptions& options) {
+    if (options.is_orthographic != parts_->options.is_orthographic) parts_->flight.stop();
     parts_->options = options;
     scale_to_device();
 }

@@ -16,6 +16,9 @@ namespace {
 
 constexpr double fit_margin = 0.05;  ///< free part of the view at each side
 constexpr double view_angle = 28.0;  ///< degrees, vertical
+/// From the eye to the focal point in parallel projection, where it does not show: outside of the mesh, which is 1
+/// across.
+constexpr double parallel_distance = 3.0;
 
 Eigen::Vector3d vector(const double* x) {
     return {x[0], x[1], x[2]};
@@ -48,11 +51,34 @@ std::array<int, 2> CameraControl::viewport() const {
     return {std::max(1, size[0]), std::max(1, size[1])};
 }
 
+double CameraControl::slope() {
+    return std::tan(0.5 * view_angle * std::numbers::pi / 180.0);
+}
+
 void CameraControl::set_flat(bool is_flat) {
     is_flat_ = is_flat;
     vtkCamera* camera = renderer_->GetActiveCamera();
-    camera->SetParallelProjection(is_flat);
+    camera->SetParallelProjection(is_parallel());
     camera->SetViewAngle(view_angle);
+}
+
+void CameraControl::set_orthographic(bool is_orthographic) {
+    if (is_orthographic == is_orthographic_) return;
+    vtkCamera* camera = renderer_->GetActiveCamera();
+    const bool was_fitted = keeps_fitted_ && fitted_camera_time_ == camera->GetMTime();
+    is_orthographic_ = is_orthographic;
+    if (is_flat_) return;
+    camera->SetParallelProjection(is_orthographic);
+    const Eigen::Vector3d focal = vector(camera->GetFocalPoint());
+    const Eigen::Vector3d backward = camera_axes(camera).col(2);
+    const Eigen::Vector3d up = vector(camera->GetViewUp());
+    if (is_orthographic) {
+        camera->SetParallelScale(camera->GetDistance() * slope());
+        place(camera, focal, focal + parallel_distance * backward, up);
+    } else {
+        place(camera, focal, focal + camera->GetParallelScale() / slope() * backward, up);
+    }
+    if (was_fitted) fit();
 }
 
 void CameraControl::set_content(std::vector<float> points) {
@@ -116,9 +142,8 @@ void CameraControl::fit() {
     const double free_y = (height - 2.0 * margin) / height;
     const Eigen::Matrix3d axes = camera_axes(camera);
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const double tan_y = std::tan(0.5 * view_angle * std::numbers::pi / 180.0);
-    const Eigen::Vector2d slope(is_flat_ ? 0.0 : 1.0 / (tan_y * free_x), is_flat_ ? 0.0 : 1.0 / (tan_y * free_y));
-    // Per screen axis: largest of +x and of -x (flat), or the distances that these ask of the camera (perspective).
+    const Eigen::Vector2d steepness(1.0 / (slope() * free_x), 1.0 / (slope() * free_y));
+    // Per screen axis: largest of +x and of -x (parallel), or the distances that these ask of the camera (perspective).
     Eigen::Array22d most = Eigen::Array22d::Constant(-infinity);
     double nearest = -infinity, farthest = infinity;
     for (std::size_t i = 0; i + 2 < points_.size(); i += 3) {
@@ -127,7 +152,7 @@ void CameraControl::fit() {
         for (int axis = 0; axis < 2; ++axis)
             for (int side = 0; side < 2; ++side) {
                 const double x = side == 0 ? view[axis] : -view[axis];
-                most(axis, side) = std::max(most(axis, side), is_flat_ ? x : x * slope[axis] + view[2]);
+                most(axis, side) = std::max(most(axis, side), is_parallel() ? x : x * steepness[axis] + view[2]);
             }
         nearest = std::max(nearest, view[2]);
         farthest = std::min(farthest, view[2]);
@@ -137,13 +162,13 @@ void CameraControl::fit() {
         nearest = farthest = 0.0;
     }
     Eigen::Vector3d center(0.0, 0.0, 0.5 * (nearest + farthest));
-    double distance = 3.0;
-    if (is_flat_) {
+    double distance = parallel_distance;
+    if (is_parallel()) {
         center.head<2>() = 0.5 * (most.col(0) - most.col(1)).matrix();
         const Eigen::Vector2d half = 0.5 * (most.col(0) + most.col(1)).matrix();
         camera->SetParallelScale(std::max({half[0] / free_x, half[1] / free_y, 1e-9}));
     } else {
-        for (int axis = 0; axis < 2; ++axis) center[axis] = 0.5 * (most(axis, 0) - most(axis, 1)) / slope[axis];
+        for (int axis = 0; axis < 2; ++axis) center[axis] = 0.5 * (most(axis, 0) - most(axis, 1)) / steepness[axis];
         distance = std::max(0.5 * (most.col(0) + most.col(1)).maxCoeff(), nearest + 1e-3) - center[2];
     }
     const Eigen::Vector3d focal = axes * center;
@@ -162,8 +187,8 @@ void CameraControl::focus(const Eigen::RowVector3d& center, double radius, const
         if (std::abs(backward.dot(up)) > 0.95) up = backward.unitOrthogonal();
     }
     const double half_height = 5.0 * std::max(radius, 1e-9);
-    const double distance = is_flat_ ? 3.0 : half_height / std::tan(0.5 * view_angle * std::numbers::pi / 180.0);
-    if (is_flat_) camera->SetParallelScale(half_height);
+    const double distance = is_parallel() ? parallel_distance : half_height / slope();
+    if (is_parallel()) camera->SetParallelScale(half_height);
     place(camera, center.transpose(), center.transpose() + distance * backward, up);
     camera->OrthogonalizeViewUp();
 }
@@ -190,7 +215,7 @@ void CameraControl::prepare_frame() {
     }
     const double room = 0.02 + 0.05 * (farthest - nearest);
     farthest = std::max(farthest + room, 1e-6);
-    nearest = is_flat_ ? nearest - room : std::max(nearest - room, 5e-4 * farthest);
+    nearest = is_parallel() ? nearest - room : std::max(nearest - room, 5e-4 * farthest);
     camera->SetClippingRange(nearest, farthest);
     if (keeps_fitted_) fitted_camera_time_ = camera->GetMTime();
 }
@@ -200,9 +225,8 @@ ViewMetrics CameraControl::metrics(double pixel_ratio) const {
     ViewMetrics view;
     view.size = viewport();
     view.pixel_ratio = pixel_ratio;
-    view.is_parallel = is_flat_;
-    view.pixel_scale = 0.5 * view.size[1] /
-                       (is_flat_ ? camera->GetParallelScale() : std::tan(0.5 * view_angle * std::numbers::pi / 180.0));
+    view.is_parallel = is_parallel();
+    view.pixel_scale = 0.5 * view.size[1] / (is_parallel() ? camera->GetParallelScale() : slope());
     const double aspect = static_cast<double>(view.size[0]) / view.size[1];
     const vtkMatrix4x4* matrix = camera->GetCompositeProjectionTransformMatrix(aspect, -1.0, 1.0);
     for (int i = 0; i < 4; ++i)
@@ -251,11 +275,11 @@ void CameraControl::zoom(double factor, double x, double y, const std::optional<
     vtkCamera* camera = renderer_->GetActiveCamera();
     const Eigen::Vector3d fixed = unproject(x, y, depth.value_or(focal_depth()));
     Eigen::Vector3d focal = vector(camera->GetFocalPoint()), position = vector(camera->GetPosition());
-    if (is_flat_) {
+    if (is_parallel()) {
         const double scale = std::clamp(camera->GetParallelScale() / factor, 1e-7, 1e2);
         const double ratio = scale / camera->GetParallelScale();
         Eigen::Vector3d shift = (1.0 - ratio) * (fixed - focal);
-        shift[2] = 0.0;
+        if (is_flat_) shift[2] = 0.0;
         camera->SetParallelScale(scale);
         place(camera, focal + shift, position + shift, vector(camera->GetViewUp()));
         return;
@@ -278,6 +302,12 @@ void CameraControl::copy_view(const CameraControl& other, const WorldFrame& thei
     };
     place(camera, convert(source->GetFocalPoint()), convert(source->GetPosition()), vector(source->GetViewUp()));
     camera->SetParallelScale(source->GetParallelScale() * scale);
+    if (is_parallel() != other.is_parallel()) {
+        const Eigen::Vector3d focal = vector(camera->GetFocalPoint());
+        const double distance = is_parallel() ? parallel_distance : camera->GetParallelScale() / slope();
+        if (is_parallel()) camera->SetParallelScale(camera->GetDistance() * slope());
+        place(camera, focal, focal + distance * camera_axes(camera).col(2), vector(camera->GetViewUp()));
+    }
     keeps_fitted_ = !is_exact && other.keeps_fitted_ && other.fitted_camera_time_ == source->GetMTime();
     fitted_size_ = {0, 0};
     fitted_camera_time_ = camera->GetMTime();

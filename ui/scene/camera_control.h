@@ -14,9 +14,13 @@ class CameraControl {
   public:
     explicit CameraControl(vtkRenderer* renderer);
 
-    /// Flat meshes are looked at along -z in parallel projection; others in perspective.
+    /// Flat meshes are looked at along -z in parallel projection; others in perspective, or orthographically.
     void set_flat(bool is_flat);
     bool is_flat() const { return is_flat_; }
+    /// Solid meshes in parallel projection. What is in the focal plane keeps its size.
+    void set_orthographic(bool is_orthographic);
+    /// Flat or orthographic.
+    bool is_parallel() const { return is_flat_ || is_orthographic_; }
     /// What `fit` shows: 3 per point, and the box that the clipping range has to hold.
     void set_content(std::vector<float> points);
     /// Strip at the right of the viewport that the legend covers, device pixels.
@@ -37,7 +41,7 @@ class CameraControl {
     /// Before every frame: refits after a change of the window's size, sets the clipping range.
     void prepare_frame();
     ViewMetrics metrics(double pixel_ratio) const;
-    /// From the eye to the focal point, world units.
+    /// From the eye to the focal point, world units; means nothing in parallel projection.
     double distance() const;
     /// World point at a display position and depth.
     Eigen::Vector3d unproject(double x, double y, double depth) const;
@@ -51,11 +55,13 @@ class CameraControl {
     void fit();
     void turn_to(const Eigen::Vector3d& backward, const Eigen::Vector3d& up);
     void update_projection();
+    /// Half the height of the view over the distance to where it is, in perspective.
+    static double slope();
     std::array<int, 2> viewport() const;
     double focal_depth() const;
 
     vtkRenderer* renderer_;
-    bool is_flat_ = true;
+    bool is_flat_ = true, is_orthographic_ = false;
     bool keeps_fitted_ = true;
     unsigned long fitted_camera_time_ = 0;
     std::array<int, 2> fitted_size_{0, 0};

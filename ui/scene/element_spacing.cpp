@@ -33,10 +33,13 @@ double element_spacing(const CurvedMesh& mesh, Index element) {
 }  // namespace
 
 std::vector<float> line_spacing(const CurvedMesh& mesh, const Tessellation& tessellation) {
+    return line_spacing(mesh, tessellation.line_elements());
+}
+
+std::vector<float> line_spacing(const CurvedMesh& mesh, const std::vector<Index>& elements) {
     std::vector<float> spacing;
-    spacing.reserve(tessellation.line_elements().size());
-    for (Index element : tessellation.line_elements())
-        spacing.push_back(static_cast<float>(element_spacing(mesh, element)));
+    spacing.reserve(elements.size());
+    for (Index element : elements) spacing.push_back(static_cast<float>(element_spacing(mesh, element)));
     return spacing;
 }
 

@@ -10,6 +10,9 @@ namespace curvewright {
 /// straight-sided element that it belongs to (2D: the height on the longest side; 3D: the shortest side).
 std::vector<float> line_spacing(const CurvedMesh& mesh, const Tessellation& tessellation);
 
+/// The same for elements told by their numbers.
+std::vector<float> line_spacing(const CurvedMesh& mesh, const std::vector<Index>& elements);
+
 /// Median of the values; 0 if there are none.
 double median(std::vector<float> values);
 

@@ -14,6 +14,10 @@ class MarkActors {
     explicit MarkActors(vtkRenderer* renderer);
 
     void set_marks(const Marks& marks, const WorldFrame& frame);
+    /// Nodes beyond the plane are left out (handles are not).
+    void set_cut(const std::optional<CuttingPlane>& plane, const WorldFrame& frame) {
+        for (PointActor* points : {&small_, &pins_}) points->set_cut(plane, frame.origin, frame.size);
+    }
     /// ground: of the view; accent: selection; ink: rubber bands and spokes.
     void set_colors(const Color& ground, const Color& accent, const Color& ink);
     /// Before every frame.

@@ -1,7 +1,9 @@
 #include "ui/scene/mesh_scene.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include <vtkActor.h>
@@ -11,12 +13,14 @@
 #include <vtkRenderer.h>
 
 #include "core/base/error.h"
+#include "core/tessellate/plane_cut.h"
 #include "ui/scene/camera_control.h"
 #include "ui/scene/element_spacing.h"
 #include "ui/scene/interactor_style.h"
 #include "ui/scene/legend.h"
 #include "ui/scene/mark_actors.h"
 #include "ui/scene/node_actor.h"
+#include "ui/scene/number_labels.h"
 #include "ui/scene/orientation_axes.h"
 #include "ui/scene/picking.h"
 #include "ui/scene/stroke_actor.h"
@@ -65,25 +69,30 @@ TessellationOptions tessellation_options(const MeshTopology& topology, double el
     return options;
 }
 
-/// One flag per element; empty = all are visible.
-std::vector<bool> find_visible(const CurvedMesh& mesh, const std::optional<ClipPlane>& clip) {
-    if (!clip || clip->position >= 1.0 || mesh.topology().dimension() < 3) return {};
-    const Eigen::Vector3d normal(clip->normal[0], clip->normal[1], clip->normal[2]);
-    double low = 0.0, high = 0.0;
-    bool is_first = true;
-    std::vector<double> centers;
-    for (Index element = 0; element < mesh.topology().element_count(); ++element) {
+/// The plane that a clip plane stands for; none if it hides nothing.
+std::optional<CuttingPlane> find_plane(const CurvedMesh& mesh, const std::optional<ClipPlane>& clip) {
+    if (!clip || clip->position >= 1.0 || mesh.topology().dimension() < 3) return std::nullopt;
+    const Eigen::RowVector3d normal(clip->normal[0], clip->normal[1], clip->normal[2]);
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (Index element = 0; element < mesh.topology().element_count(); ++element)
         for (Index node : mesh.topology().element_nodes(element)) {
             const double along = mesh.coordinates().row(node).dot(normal);
-            low = is_first ? along : std::min(low, along);
-            high = is_first ? along : std::max(high, along);
-            is_first = false;
+            low = std::min(low, along);
+            high = std::max(high, along);
         }
-        centers.push_back(mesh.element_center(element).dot(normal));
-    }
-    const double limit = low + clip->position * (high - low);
-    std::vector<bool> visible(centers.size());
-    for (std::size_t i = 0; i < centers.size(); ++i) visible[i] = clip->position > 0.0 && centers[i] <= limit;
+    // All is hidden, what bulges over the nodes as well.
+    if (clip->position <= 0.0) return CuttingPlane{normal, low - (high - low)};
+    return CuttingPlane{normal, low + clip->position * (high - low)};
+}
+
+/// One flag per element; empty = all are visible.
+std::vector<bool> find_visible(const CurvedMesh& mesh, const std::optional<ClipPlane>& clip) {
+    if (!clip || clip->style != ClipStyle::whole_elements) return {};
+    const std::optional<CuttingPlane> plane = find_plane(mesh, clip);
+    if (!plane) return {};
+    std::vector<bool> visible(static_cast<std::size_t>(mesh.topology().element_count()));
+    for (Index element = 0; element < mesh.topology().element_count(); ++element)
+        visible[static_cast<std::size_t>(element)] = plane->distance(mesh.element_center(element)) <= 0.0;
     return visible;
 }
 
@@ -99,16 +108,19 @@ struct MeshScene::Parts {
     WorldFrame frame;
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
+    std::unique_ptr<PlaneCut> section;                            ///< none: nothing is cut
     double typical_spacing = 0.0;                                 ///< world
-    int fineness_part = 0;  ///< of the pieces, looked at last in a motion
+    int fineness_part = 0;                                 ///< of the pieces, looked at last in a motion
+    std::chrono::steady_clock::time_point next_section{};  ///< of a motion
 
     CameraControl camera{renderer};
-    SurfaceActor surface;
-    StrokeActor edges, boundary;
+    SurfaceActor surface, section_surface;
+    StrokeActor edges, boundary, section_edges;
     TangledMarks marks{add_base_actors()};
     NodeActors nodes;
     StrokeActor highlight_halo, highlight;
     MarkActors edit_marks{add_top_actors()};
+    NumberLabels numbers{renderer};
     Legend legend{renderer};
     OrientationAxes axes{renderer};
     vtkNew<vtkCallbackCommand> frame_observer;
@@ -130,7 +142,9 @@ struct MeshScene::Parts {
 
     // Members are drawn in the order in which they are added: what lies above comes later.
     vtkRenderer* add_base_actors() {
-        for (vtkActor* actor : {surface.actor(), edges.actor(), boundary.actor()}) renderer->AddActor(actor);
+        for (vtkActor* actor :
+             {surface.actor(), section_surface.actor(), edges.actor(), boundary.actor(), section_edges.actor()})
+            renderer->AddActor(actor);
         return renderer;
     }
     vtkRenderer* add_top_actors() {
@@ -149,11 +163,14 @@ struct MeshScene::Parts {
 
     void apply_options() {
         const Color& background = options.background;
+        camera.set_orthographic(options.is_orthographic);
         renderer->SetBackground(background[0], background[1], background[2]);
-        edges.set_style(
-            {.color = options.edge_color, .opacity = 0.75, .width = 1.1, .depth_bias = 4e-4, .fades = true});
+        for (StrokeActor* lines : {&edges, &section_edges})
+            lines->set_style(
+                {.color = options.edge_color, .opacity = 0.75, .width = 1.1, .depth_bias = 4e-4, .fades = true});
         boundary.set_style({.color = options.edge_color, .width = 1.6, .depth_bias = 5e-4});
         edges.actor()->SetVisibility(options.show_edges && tessellation);
+        section_edges.actor()->SetVisibility(options.show_edges && section && !section->line_elements().empty());
         boundary.actor()->SetVisibility(tessellation && is_flat());
         highlight_halo.set_style({.color = background, .width = 6.5, .cap = 1.0, .is_on_top = true});
         // Nearer than the halo of every other side of the element.
@@ -165,6 +182,7 @@ struct MeshScene::Parts {
         legend.set_visible(options.show_legend);
         axes.set_colors(background, options.foreground);
         edit_marks.set_colors(background, options.accent, options.foreground);
+        numbers.set_colors(background, options.foreground, options.accent);
     }
 
     /// Makes the drawing of the mesh anew, or moves it if nothing but positions has changed.
@@ -197,14 +215,85 @@ struct MeshScene::Parts {
         frame.place(edges.actor(), tessellation->origin());
         frame.place(boundary.actor(), tessellation->origin());
         nodes.set_nodes(*mesh, *tessellation, frame);
+        draw_cut();
+    }
+
+    /// What a clip plane that goes through the elements changes, and all that depends on it.
+    void draw_cut() {
+        const bool is_cut = options.clip && options.clip->style == ClipStyle::cut;
+        const std::optional<CuttingPlane> plane = is_cut ? find_plane(*mesh, options.clip) : std::nullopt;
+        section.reset();
+        if (plane) find_section(*plane);
+        draw_section();
+        set_cut_of_marks();
         if (quality)
-            marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
+            marks.set_mesh(*mesh, *quality, visible, *tessellation, section.get(), frame);
         else
             marks.clear();
         draw_highlight();
         set_camera_content();
+        set_numbers();
         apply_options();
     }
+
+    void find_section(const CuttingPlane& plane) {
+        PlaneCutOptions its;
+        const TessellationOptions drawn = tessellation_options(mesh->topology(), options.element_size);
+        its.min_subdivisions = std::max(2, drawn.min_subdivisions);
+        its.element_size = options.element_size;
+        section = std::make_unique<PlaneCut>(*mesh, plane, visible, its);
+    }
+
+    std::optional<CuttingPlane> cutting_plane() const {
+        return section ? std::optional(section->plane()) : std::nullopt;
+    }
+
+    /// The section, and what its plane leaves of surface, edges and nodes.
+    void draw_section() {
+        const std::optional<CuttingPlane> plane = cutting_plane();
+        surface.set_cut(plane, tessellation->origin(), frame.size);
+        edges.set_cut(plane, tessellation->origin(), frame.size);
+        nodes.set_cut(plane, tessellation->origin(), frame.size);
+        if (!section) {
+            section_surface.clear();
+            section_edges.clear();
+            return;
+        }
+        section_surface.set_lit(true);
+        section_surface.set_section(
+            *section, [](Index) { return true; }, [this](Index element) { return color_of(element); });
+        frame.place(section_surface.actor(), section->origin());
+        Polylines lines;
+        std::vector<Index> elements;
+        lines.add_section(*section, section->origin(), [&](std::size_t line) {
+            if (section->line_is_first()[line]) elements.push_back(section->line_elements()[line]);
+            return section->line_is_first()[line] != 0;
+        });
+        lines.spacing = line_spacing(*mesh, elements);
+        section_edges.set_lines(lines, 1.0 / frame.size);
+        section_edges.actor()->SetVisibility(options.show_edges && !elements.empty());
+        frame.place(section_edges.actor(), section->origin());
+    }
+
+    /// Numbers of what is drawn.
+    void set_numbers() {
+        std::vector<NumberLabel> labels;
+        if (tessellation && options.show_element_numbers)
+            for (const FaceMiddle& middle : face_middles(drawn()))
+                labels.push_back({NumberKind::element, mesh->topology().element_tag(middle.element).value,
+                                  middle.element, frame.to_world(middle.at)});
+        if (tessellation && options.show_node_numbers)
+            for (const Index node : tessellation->nodes()) {
+                const Eigen::RowVector3d at = mesh->coordinates().row(node);
+                if (section && section->plane().distance(at) > 0.0) continue;
+                labels.push_back({NumberKind::node, mesh->topology().node_tag(node).value, node, frame.to_world(at)});
+            }
+        numbers.set_labels(std::move(labels));
+    }
+
+    void set_cut_of_marks() { edit_marks.set_cut(cutting_plane(), frame); }
+
+    DrawnSurface drawn() const { return {*tessellation, section.get()}; }
 
     /// A frame of a motion: see MeshScene::show_frame.
     void draw_frame(bool has_moved, bool has_new_quality) {
@@ -228,17 +317,34 @@ struct MeshScene::Parts {
         if (has_moved && !are_too_many) edges.move_lines(select_points(*tessellation, false));
         if (has_moved) boundary.move_lines(select_points(*tessellation, true));
         if (has_moved && options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
-        if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, frame);
+        // The section follows in every frame if that is quick, else in a part of the time, and with every new report.
+        const auto now = std::chrono::steady_clock::now();
+        if (section && (has_new_quality || now >= next_section)) {
+            find_section(CuttingPlane(section->plane()));
+            draw_section();
+            const auto end = std::chrono::steady_clock::now();
+            constexpr auto quick = std::chrono::milliseconds(25);
+            next_section = end - now <= quick ? end : end + 2 * (end - now);
+        }
+        if (quality && has_new_quality) marks.set_mesh(*mesh, *quality, visible, *tessellation, section.get(), frame);
         if (has_moved && !highlighted.empty()) draw_highlight();
+        if (has_moved) set_numbers();
     }
 
     void set_camera_content() {
         std::vector<float> points;
         const Eigen::RowVector3d offset = frame.to_world(tessellation->origin());
+        const auto add = [&](const std::vector<float>& source, const Eigen::RowVector3d& its_offset, bool is_cut) {
+            for (std::size_t i = 0; i + 2 < source.size(); i += 3) {
+                const Eigen::RowVector3d at(source[i], source[i + 1], source[i + 2]);
+                if (is_cut && section->plane().distance(at + tessellation->origin()) > 0.0) continue;
+                for (Eigen::Index d = 0; d < 3; ++d)
+                    points.push_back(static_cast<float>(at[d] / frame.size + its_offset[d]));
+            }
+        };
         for (const auto* source : {&tessellation->surface_points(), &tessellation->edge_points()})
-            for (std::size_t i = 0; i < source->size(); ++i)
-                points.push_back(
-                    static_cast<float>((*source)[i] / frame.size + offset[static_cast<Eigen::Index>(i % 3)]));
+            add(*source, offset, section != nullptr);
+        if (section) add(section->points(), frame.to_world(section->origin()), false);
         camera.set_content(std::move(points));
     }
 
@@ -255,8 +361,13 @@ struct MeshScene::Parts {
             lines.points = outline.edge_points();
             lines.offsets = outline.line_offsets();
             origin = outline.origin();
+            if (section)
+                lines.add_section(*section, origin, [&](std::size_t line) {
+                    return flags[static_cast<std::size_t>(section->line_elements()[line])];
+                });
         }
         for (StrokeActor* stroke : {&highlight_halo, &highlight}) {
+            stroke->set_cut(cutting_plane(), origin, frame.size);
             stroke->set_lines(lines, 1.0 / frame.size);
             frame.place(stroke->actor(), origin);
         }
@@ -264,11 +375,13 @@ struct MeshScene::Parts {
 
     void clear() {
         tessellation.reset();
+        section.reset();
         visible.clear();
-        surface.clear();
-        for (StrokeActor* stroke : {&edges, &boundary, &highlight_halo, &highlight}) stroke->clear();
+        for (SurfaceActor* its : {&surface, &section_surface}) its->clear();
+        for (StrokeActor* stroke : {&edges, &boundary, &section_edges, &highlight_halo, &highlight}) stroke->clear();
         nodes.set_visible(false);
         marks.clear();
+        set_numbers();
         edit_marks.set_marks({}, frame);
         camera.set_content({});
     }
@@ -279,12 +392,15 @@ struct MeshScene::Parts {
         camera.set_right_margin(legend.width(ratio));
         camera.prepare_frame();
         const ViewMetrics view = camera.metrics(ratio);
-        surface.update(view);
-        for (StrokeActor* stroke : {&edges, &boundary, &highlight_halo, &highlight}) stroke->update(view);
+        for (SurfaceActor* its : {&surface, &section_surface}) its->update(view);
+        for (StrokeActor* stroke : {&edges, &boundary, &section_edges, &highlight_halo, &highlight})
+            stroke->update(view);
         const double focal_distance = view.is_parallel ? 1.0 : camera.distance();
         nodes.update(view, typical_spacing, focal_distance);
         marks.update(view);
         edit_marks.update(view);
+        const std::optional<DrawnSurface> hiding = tessellation && !is_flat() ? std::optional(drawn()) : std::nullopt;
+        numbers.update(view, hiding ? &*hiding : nullptr, frame, {legend.width(ratio), axes.size(ratio)});
         legend.update(view);
         axes.update(view);
     }
@@ -293,7 +409,7 @@ struct MeshScene::Parts {
 
     std::optional<Pick> pick(double x, double y) const {
         if (!tessellation) return std::nullopt;
-        return pick_surface(*tessellation, frame, camera.metrics(options.pixel_ratio), x, y, [this](Index element) {
+        return pick_surface(drawn(), frame, camera.metrics(options.pixel_ratio), x, y, [this](Index element) {
             return quality && quality->elements[element].validity == Validity::invalid ? 1 : 0;
         });
     }
@@ -356,14 +472,21 @@ void MeshScene::set_options(const SceneOptions& options) {
     const std::optional<ClipPlane>& before = before_options.clip;
     parts.options = options;
     const bool is_size_changed = before_options.element_size != options.element_size;
-    const bool is_clip_changed =
-        is_size_changed || before_options.only_elements != options.only_elements ||
-        before.has_value() != options.clip.has_value() ||
-        (before && (before->normal != options.clip->normal || before->position != options.clip->position));
-    if (parts.mesh && is_clip_changed)
+    const bool is_clip_changed = before != options.clip;
+    const auto hides_whole = [](const std::optional<ClipPlane>& clip) {
+        return clip && clip->style == ClipStyle::whole_elements;
+    };
+    if (parts.mesh && (is_size_changed || before_options.only_elements != options.only_elements ||
+                       (is_clip_changed && (hides_whole(before) || hides_whole(options.clip)))))
         parts.draw_mesh(!is_size_changed);
-    else
+    else if (parts.mesh && is_clip_changed)
+        parts.draw_cut();  // the surface is the same, only cut elsewhere
+    else {
+        if (before_options.show_node_numbers != options.show_node_numbers ||
+            before_options.show_element_numbers != options.show_element_numbers)
+            parts.set_numbers();
         parts.apply_options();
+    }
 }
 
 const SceneOptions& MeshScene::options() const {
@@ -393,6 +516,8 @@ void MeshScene::focus_element(Index element) {
         const float* normal = drawn.surface_normals().data() + 3 * drawn.triangles()[3 * triangle];
         facing += Eigen::RowVector3d(normal[0], normal[1], normal[2]);
     }
+    if (parts.section && parts.section->sides()[static_cast<std::size_t>(element)] == PlaneCut::Side::cut)
+        facing = parts.section->plane().normal;
     parts_->camera.focus(parts.frame.to_world(center), radius / parts.frame.size, facing);
 }
 
@@ -406,6 +531,11 @@ void MeshScene::focus_ball(const Eigen::RowVector3d& center, double radius) {
 
 bool MeshScene::draws_element(Index element) const {
     if (!parts_->tessellation) return false;
+    if (const PlaneCut* section = parts_->section.get();
+        section && element >= 0 && element < Index(section->sides().size())) {
+        const PlaneCut::Side side = section->sides()[static_cast<std::size_t>(element)];
+        if (side != PlaneCut::Side::kept) return side == PlaneCut::Side::cut;
+    }
     const std::vector<Index>& drawn = parts_->tessellation->triangle_elements();
     return std::find(drawn.begin(), drawn.end(), element) != drawn.end();
 }
@@ -417,6 +547,7 @@ std::optional<Index> MeshScene::pick_element(double x, double y) const {
 
 void MeshScene::set_marks(const Marks& marks) {
     parts_->edit_marks.set_marks(marks, parts_->frame);
+    parts_->set_cut_of_marks();
 }
 
 bool MeshScene::is_flat() const {
@@ -446,26 +577,32 @@ Eigen::Matrix3d MeshScene::view_axes() const {
 std::optional<Index> MeshScene::pick_node(double x, double y, double radius,
                                           const std::function<bool(Index)>& accepts) const {
     if (!parts_->tessellation) return std::nullopt;
-    return pick_drawn_node(*parts_->mesh, *parts_->tessellation, parts_->frame, parts_->view(), x, y, radius,
-                           !is_flat(), accepts);
+    return pick_drawn_node(*parts_->mesh, parts_->drawn(), parts_->frame, parts_->view(), x, y, radius, !is_flat(),
+                           accepts);
 }
 
 std::vector<Index> MeshScene::nodes_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const {
     if (!parts_->tessellation) return {};
-    return pick_nodes_inside(*parts_->mesh, *parts_->tessellation, parts_->frame, parts_->view(), polygon,
+    return pick_nodes_inside(*parts_->mesh, parts_->drawn(), parts_->frame, parts_->view(), polygon,
                              !is_flat() && !see_through);
 }
 
 std::vector<Index> MeshScene::elements_inside(const std::vector<std::array<double, 2>>& polygon,
                                               bool see_through) const {
     if (!parts_->tessellation) return {};
-    return pick_elements_inside(*parts_->tessellation, parts_->frame, parts_->view(), polygon,
-                                !is_flat() && !see_through);
+    return pick_elements_inside(parts_->drawn(), parts_->frame, parts_->view(), polygon, !is_flat() && !see_through);
 }
 
 void MeshScene::copy_view(const MeshScene& other, bool is_exact) {
     if (!parts_->mesh || !other.parts_->mesh) return;
     parts_->camera.copy_view(other.parts_->camera, other.parts_->frame, parts_->frame, is_exact);
+}
+
+std::vector<MeshScene::ShownNumber> MeshScene::shown_numbers() const {
+    std::vector<ShownNumber> shown;
+    for (const NumberLabels::Placed& label : parts_->numbers.placed())
+        shown.push_back({label.kind == NumberKind::element, label.number, label.box});
+    return shown;
 }
 
 void MeshScene::attach_interactor(vtkRenderWindowInteractor* interactor) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -16,18 +17,26 @@ class vtkRenderWindowInteractor;
 
 namespace curvewright {
 
-/// Elements whose centre is on the positive side of the plane are hidden (whole elements).
+/// What a clip plane takes away: the elements whose centre is on its positive side, or all that is there, through the
+/// elements.
+enum class ClipStyle { whole_elements, cut };
+
 struct ClipPlane {
     std::array<double, 3> normal{1.0, 0.0, 0.0};  ///< unit
     /// Position along the normal as a fraction of the mesh's extent in that direction: 0 hides all, 1 hides none.
     double position = 0.5;
+    ClipStyle style = ClipStyle::whole_elements;
+    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
 };
 
 struct SceneOptions {
     bool show_edges = true;
     bool show_nodes = false;
+    bool show_node_numbers = false;     ///< the file's tags, as many as there is room for
+    bool show_element_numbers = false;  ///< likewise
     bool show_legend = true;
     std::optional<ClipPlane> clip;                    ///< 3D meshes only
+    bool is_orthographic = false;                     ///< 3D meshes in parallel projection
     double element_size = 1.0;                        ///< below 1: gaps between the elements
     std::optional<std::vector<Index>> only_elements;  ///< the others are hidden
     Color background{1.0, 1.0, 1.0};
@@ -63,7 +72,7 @@ class MeshScene {
     /// Elements drawn with a selection outline; empty = none.
     void set_highlighted_elements(const std::vector<Index>& elements);
 
-    /// Sets the camera: `fit` keeps the direction. 2D meshes are always looked at face on (parallel projection).
+    /// Sets the camera: `fit` keeps the direction. 2D meshes are always looked at face on, in parallel projection.
     void look(ViewDirection direction);
     /// Moves the camera so that the element fills a good part of the view.
     void focus_element(Index element);
@@ -71,7 +80,7 @@ class MeshScene {
     /// Moves the camera so that a ball (mesh units) fills the view; radius 0: with a twentieth of the mesh around it.
     void focus_ball(const Eigen::RowVector3d& center, double radius);
 
-    /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
+    /// Whether anything of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
 
     /// Takes over the view of another scene that shows the same mesh or another state of it. One that is kept fitted to
@@ -101,6 +110,15 @@ class MeshScene {
     /// ones too if see_through (2D: nothing is hidden).
     std::vector<Index> nodes_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const;
     std::vector<Index> elements_inside(const std::vector<std::array<double, 2>>& polygon, bool see_through) const;
+
+    /// A number on the screen.
+    struct ShownNumber {
+        bool is_element = false;
+        std::int64_t tag = 0;
+        std::array<int, 4> box{};  ///< left, bottom, right, top, device pixels, halo included
+    };
+    /// The numbers that the last frame showed, nearest the eye first.
+    std::vector<ShownNumber> shown_numbers() const;
 
     /// Installs the way the mouse moves the camera: 2D pan and zoom to the pointer; 3D trackball.
     void attach_interactor(vtkRenderWindowInteractor* interactor);

@@ -14,6 +14,10 @@ class NodeActors {
     void set_nodes(const CurvedMesh& mesh, const Tessellation& tessellation, const WorldFrame& frame);
     /// boundary, interior: fill of the points; rim: their outline.
     void set_colors(const Color& boundary, const Color& interior, const Color& rim);
+    /// See PointActor::set_cut. origin: of the tessellation that they were set with.
+    void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size) {
+        for (PointActor& set : sets_) set.set_cut(plane, origin, mesh_size);
+    }
     void set_visible(bool is_visible);
     /// Before every frame. spacing: typical distance of neighbouring corners, world units.
     void update(const ViewMetrics& view, double spacing, double distance);

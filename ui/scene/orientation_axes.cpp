@@ -27,6 +27,10 @@ void OrientationAxes::set_colors(const Color& background, const Color& foregroun
     foreground_ = foreground;
 }
 
+double OrientationAxes::size(double pixel_ratio) const {
+    return is_visible_ ? (corner_distance + axis_length + label_distance + 0.5 * text_size) * pixel_ratio : 0.0;
+}
+
 void OrientationAxes::update(const ViewMetrics& view) {
     const bool fits = view.size[0] > 240.0 * view.pixel_ratio && view.size[1] > 160.0 * view.pixel_ratio;
     if (!is_visible_ || !fits) {

@@ -13,6 +13,8 @@ class OrientationAxes {
   public:
     explicit OrientationAxes(vtkRenderer* renderer);
 
+    /// Side of the square in the corner that they take up, device pixels; 0 if they are not shown.
+    double size(double pixel_ratio) const;
     void set_visible(bool is_visible) { is_visible_ = is_visible; }
     void set_colors(const Color& background, const Color& foreground);
     /// Before every frame.

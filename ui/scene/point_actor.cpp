@@ -16,12 +16,15 @@
 #include <vtkUniforms.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "ui/scene/cut_uniform.h"
+
 namespace curvewright {
 namespace {
 
 constexpr const char* vertex_code = R"(
 //VTK::PositionVC::Impl
   gl_Position.z = nodeOnTop != 0 ? -0.985 * gl_Position.w + 0.004 * gl_Position.z : gl_Position.z - 0.002 * gl_Position.w;
+  if (dot(nodeCut, vec4(vertexMC.xyz, 1.0)) > 0.0) gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
 )";
 
 // A disc with a rim, both with smooth borders.
@@ -52,6 +55,7 @@ PointActor::PointActor() {
     shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, vertex_code, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, fragment_code, false);
     shader->GetVertexCustomUniforms()->SetUniformi("nodeOnTop", 0);
+    set_cut({}, Eigen::RowVector3d::Zero(), 1.0);
     set_diameter(1.0);
     set_rim({0.0, 0.0, 0.0});
 }
@@ -88,6 +92,11 @@ void PointActor::set_colors(const std::vector<Color>& colors) {
 void PointActor::set_rim(const Color& rim) {
     const float rgb[3] = {static_cast<float>(rim[0]), static_cast<float>(rim[1]), static_cast<float>(rim[2])};
     actor_->GetShaderProperty()->GetFragmentCustomUniforms()->SetUniform3f("nodeRim", rgb);
+}
+
+void PointActor::set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size) {
+    const std::array<float, 4> cut = cut_coefficients(plane, origin, mesh_size);
+    actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform4f("nodeCut", cut.data());
 }
 
 void PointActor::set_on_top() {

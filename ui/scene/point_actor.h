@@ -1,9 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include <vtkNew.h>
 
+#include "core/tessellate/plane_cut.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/view_metrics.h"
 
@@ -27,6 +29,8 @@ class PointActor {
     /// One fill per point.
     void set_colors(const std::vector<Color>& colors);
     void set_rim(const Color& rim);
+    /// Points beyond the plane are left out; none: none are. origin: of the points.
+    void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size);
     /// Drawn over everything.
     void set_on_top();
     bool is_empty() const;

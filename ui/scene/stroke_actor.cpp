@@ -17,6 +17,8 @@
 #include <vtkUniforms.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "ui/scene/cut_uniform.h"
+
 namespace curvewright {
 namespace {
 
@@ -29,6 +31,7 @@ in vec3 nextMC;
 in vec3 strokeMC;
 out vec4 strokeVSOutput;
 out float strokePeriodVSOutput;
+out float strokeBeyondVSOutput;
 //VTK::PositionVC::Dec
 )";
 
@@ -70,12 +73,14 @@ constexpr const char* vertex_code = R"(
     strokeVSOutput = vec4(strokeMC.x * reach, halfWidth, period > 0.0 ? strokeMC.y * scale / period : 0.0,
                           strokeFades != 0 ? 0.2 + 0.8 * presence : 1.0);
     strokePeriodVSOutput = period;
+    strokeBeyondVSOutput = dot(strokeCut, vec4(hereMC, 1.0));
   }
 )";
 
 constexpr const char* fragment_declarations = R"(
 in vec4 strokeVSOutput;
 in float strokePeriodVSOutput;
+in float strokeBeyondVSOutput;
 //VTK::Color::Dec
 )";
 
@@ -83,6 +88,7 @@ in float strokePeriodVSOutput;
 constexpr const char* fragment_code = R"(
 //VTK::Light::Impl
   {
+    if (strokeBeyondVSOutput > 0.0) discard;
     float across = abs(strokeVSOutput.x), halfWidth = strokeVSOutput.y;
     float coverage = clamp(min(halfWidth, across + 0.5) - max(-halfWidth, across - 0.5), 0.0, 1.0);
     if (strokePeriodVSOutput > 0.0) {
@@ -111,6 +117,18 @@ void Polylines::add(const std::vector<std::array<double, 3>>& line) {
     offsets.push_back(offsets.back() + static_cast<Index>(line.size()));
 }
 
+void Polylines::add_section(const PlaneCut& section, const Eigen::RowVector3d& origin,
+                            const std::function<bool(std::size_t)>& is_wanted) {
+    const Eigen::RowVector3f shift = (section.origin() - origin).cast<float>();
+    for (std::size_t line = 0; line < section.line_elements().size(); ++line) {
+        if (!is_wanted(line)) continue;
+        for (Index i = section.line_offsets()[line]; i < section.line_offsets()[line + 1]; ++i)
+            for (Index d = 0; d < 3; ++d)
+                points.push_back(section.line_points()[static_cast<std::size_t>(3 * i + d)] + shift[d]);
+        offsets.push_back(static_cast<Index>(points.size() / 3));
+    }
+}
+
 StrokeActor::StrokeActor() {
     mapper_->SetInputData(data_);
     mapper_->SetVBOShiftScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
@@ -130,6 +148,7 @@ StrokeActor::StrokeActor() {
     shader->AddFragmentShaderReplacement("//VTK::Color::Dec", true, fragment_declarations, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, fragment_code, false);
     set_style({});
+    set_cut({}, Eigen::RowVector3d::Zero(), 1.0);
     update({});
 }
 
@@ -222,6 +241,12 @@ void StrokeActor::move_lines(const std::vector<float>& points) {
     }
     for (vtkFloatArray* array : {here_.Get(), previous_.Get(), next_.Get()}) array->Modified();
     data_->Modified();
+}
+
+void StrokeActor::set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin,
+                          double mesh_size) {
+    const std::array<float, 4> cut = cut_coefficients(plane, origin, mesh_size);
+    actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform4f("strokeCut", cut.data());
 }
 
 void StrokeActor::set_style(const StrokeStyle& style) {

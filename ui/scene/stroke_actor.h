@@ -1,11 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
 
+#include "core/tessellate/plane_cut.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/view_metrics.h"
 
@@ -26,6 +29,10 @@ struct Polylines {
     std::vector<Color> colors;
 
     void add(const std::vector<std::array<double, 3>>& line);
+    /// The curves of a section that are wanted, by their number. origin: of the points that are here. The spacing, if
+    /// there is one for the lines before, has to be added by the caller.
+    void add_section(const PlaneCut& section, const Eigen::RowVector3d& origin,
+                     const std::function<bool(std::size_t line)>& is_wanted);
     Index count() const { return static_cast<Index>(offsets.size()) - 1; }
 };
 
@@ -56,6 +63,8 @@ class StrokeActor {
     void clear() { set_lines({}, 1.0); }
     /// The same lines elsewhere; spacing, colours and the places of dots stay. points: 3 per point, as many as before.
     void move_lines(const std::vector<float>& points);
+    /// What lies beyond the plane is left out; none: nothing is. origin: of the points.
+    void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size);
     void set_style(const StrokeStyle& style);
     const StrokeStyle& style() const { return style_; }
     /// Before every frame.

@@ -17,12 +17,30 @@
 #include <vtkUniforms.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "ui/scene/cut_uniform.h"
+
 namespace curvewright {
 namespace {
+
+constexpr const char* vertex_declarations = R"(
+out float surfaceBeyondVSOutput;
+//VTK::PositionVC::Dec
+)";
 
 constexpr const char* bias_code = R"(
 //VTK::PositionVC::Impl
   gl_Position.z -= surfaceBias * gl_Position.w;
+  surfaceBeyondVSOutput = dot(surfaceCut, vec4(vertexMC.xyz, 1.0));
+)";
+
+constexpr const char* fragment_declarations = R"(
+in float surfaceBeyondVSOutput;
+//VTK::Color::Dec
+)";
+
+constexpr const char* cut_code = R"(
+  if (surfaceBeyondVSOutput > 0.0) discard;
+//VTK::Color::Impl
 )";
 
 constexpr const char* hatch_code = R"(
@@ -64,7 +82,10 @@ SurfaceActor::SurfaceActor() {
     actor_->UseBoundsOff();
     actor_->VisibilityOff();
     vtkShaderProperty* shader = actor_->GetShaderProperty();
+    shader->AddVertexShaderReplacement("//VTK::PositionVC::Dec", true, vertex_declarations, false);
     shader->AddVertexShaderReplacement("//VTK::PositionVC::Impl", true, bias_code, false);
+    shader->AddFragmentShaderReplacement("//VTK::Color::Dec", true, fragment_declarations, false);
+    shader->AddFragmentShaderReplacement("//VTK::Color::Impl", true, cut_code, false);
     shader->AddFragmentShaderReplacement("//VTK::Light::Impl", true, hatch_code, false);
     vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
     uniforms->SetUniformf("hatchPeriod", 0.0f);
@@ -73,6 +94,7 @@ SurfaceActor::SurfaceActor() {
     const float black[3] = {0.0f, 0.0f, 0.0f};
     uniforms->SetUniform3f("hatchColor", black);
     set_depth_bias(0.0);
+    set_cut({}, Eigen::RowVector3d::Zero(), 1.0);
     is_lit_ = true;
     set_lit(false);
 }
@@ -123,6 +145,55 @@ void SurfaceActor::set_colors(const Tessellation& tessellation, const std::funct
     }
     data_->GetPointData()->SetScalars(colors);
     data_->Modified();
+}
+
+void SurfaceActor::set_section(const PlaneCut& section, const std::function<bool(Index)>& is_wanted,
+                               const std::function<Color(Index)>& color_of) {
+    std::vector<float> points, normals;
+    auto ids = vtkSmartPointer<vtkTypeInt64Array>::New();
+    vtkNew<vtkUnsignedCharArray> colors;
+    colors->SetNumberOfComponents(3);
+    // The points of an element stand together and belong to it alone.
+    std::vector<Index> copied(section.points().size() / 3, -1);
+    const auto& elements = section.triangle_elements();
+    for (std::size_t triangle = 0; triangle < elements.size(); ++triangle) {
+        if (!is_wanted(elements[triangle])) continue;
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const Index from = section.triangles()[3 * triangle + corner];
+            Index& to = copied[static_cast<std::size_t>(from)];
+            if (to < 0) {
+                to = static_cast<Index>(points.size() / 3);
+                const Color color = color_of(elements[triangle]);
+                for (std::size_t d = 0; d < 3; ++d) {
+                    points.push_back(section.points()[3 * static_cast<std::size_t>(from) + d]);
+                    normals.push_back(static_cast<float>(section.plane().normal[static_cast<Eigen::Index>(d)]));
+                    colors->InsertNextValue(
+                        static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[d], 0.0, 1.0))));
+                }
+            }
+            ids->InsertNextValue(to);
+        }
+    }
+    data_->Initialize();
+    actor_->SetVisibility(!points.empty());
+    if (points.empty()) return;
+    auto starts = vtkSmartPointer<vtkTypeInt64Array>::New();
+    for (vtkIdType i = 0; i <= ids->GetNumberOfValues(); i += 3) starts->InsertNextValue(i);
+    vtkNew<vtkCellArray> triangles;
+    triangles->SetData(starts, ids);
+    vtkNew<vtkPoints> positions;
+    positions->SetData(copy_triples(points));
+    data_->SetPoints(positions);
+    data_->SetPolys(triangles);
+    data_->GetPointData()->SetNormals(is_lit_ ? copy_triples(normals) : nullptr);
+    data_->GetPointData()->SetScalars(colors);
+    data_->Modified();
+}
+
+void SurfaceActor::set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin,
+                           double mesh_size) {
+    const std::array<float, 4> cut = cut_coefficients(plane, origin, mesh_size);
+    actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform4f("surfaceCut", cut.data());
 }
 
 void SurfaceActor::clear() {

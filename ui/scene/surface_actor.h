@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include <vtkNew.h>
 
+#include "core/tessellate/plane_cut.h"
 #include "core/tessellate/tessellation.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/view_metrics.h"
@@ -28,7 +30,12 @@ class SurfaceActor {
     /// is_new: the connectivity is not that of the call before.
     void set_surface(const Tessellation& tessellation, bool is_new);
     void set_colors(const Tessellation& tessellation, const std::function<Color(Index element)>& color_of);
+    /// Instead of a tessellation: the section's inside, of the elements that are wanted.
+    void set_section(const PlaneCut& section, const std::function<bool(Index element)>& is_wanted,
+                     const std::function<Color(Index element)>& color_of);
     void clear();
+    /// What lies beyond the plane is left out; none: nothing is. origin: of the points.
+    void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size);
 
     /// Soft light from the eye (3D), or the colours as they are (2D).
     void set_lit(bool is_lit);

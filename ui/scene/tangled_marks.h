@@ -18,9 +18,10 @@ class TangledMarks {
     explicit TangledMarks(vtkRenderer* renderer);
 
     /// visible: one flag per element; empty = all. drawn: the surface of the visible elements. A tangled element that
-    /// has no part in it lies inside the mesh: its ring is dotted and always there.
+    /// has no part in it lies inside the mesh: its ring is dotted and always there. section: where the mesh is cut,
+    /// null = nowhere; elements beyond it have no marks.
     void set_mesh(const CurvedMesh& mesh, const QualityReport& quality, const std::vector<bool>& visible,
-                  const Tessellation& drawn, const WorldFrame& frame);
+                  const Tessellation& drawn, const PlaneCut* section, const WorldFrame& frame);
     void clear();
     /// Before every frame.
     void update(const ViewMetrics& view);
@@ -33,7 +34,7 @@ class TangledMarks {
     };
     void draw_rings(const ViewMetrics& view);
 
-    SurfaceActor hatched_;
+    SurfaceActor hatched_, hatched_section_;
     StrokeActor halo_, outline_, undecided_halo_, undecided_, ring_halo_, ring_, inside_ring_;
     std::vector<Mark> marks_;  ///< of tangled elements, worst first
 };
