@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkLookupTable.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
@@ -121,7 +123,37 @@ void SurfaceActor::set_colors(const Tessellation& tessellation, const std::funct
         for (std::size_t corner = 0; corner < 3; ++corner)
             std::copy(bytes.begin(), bytes.end(), at + 3 * tessellation.triangles()[3 * triangle + corner]);
     }
+    mapper_->InterpolateScalarsBeforeMappingOff();
     data_->GetPointData()->SetScalars(colors);
+    data_->Modified();
+}
+
+void SurfaceActor::set_field(const std::vector<double>& values, const ColorScale& scale) {
+    constexpr int table_size = 512;
+    vtkNew<vtkLookupTable> table;
+    table->SetNumberOfTableValues(table_size);
+    table->SetTableRange(0.0, 1.0);
+    for (int i = 0; i < table_size; ++i) {
+        const double t = (i + 0.5) / table_size;
+        const Color color = map_color(scale.map, scale.is_reversed ? 1.0 - t : t);
+        table->SetTableValue(i, color[0], color[1], color[2], 1.0);
+    }
+    const Color none = no_value_color();
+    table->SetNanColor(none[0], none[1], none[2], 1.0);
+    // Positions in the range instead of the numbers themselves, which single precision may not tell apart.
+    vtkNew<vtkFloatArray> positions;
+    positions->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+    constexpr double farthest = 100.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double position = scale.position(values[i]);
+        positions->SetValue(static_cast<vtkIdType>(i),
+                            std::isfinite(position) ? static_cast<float>(std::clamp(position, -farthest, farthest))
+                                                    : std::numeric_limits<float>::quiet_NaN());
+    }
+    mapper_->SetLookupTable(table);
+    mapper_->UseLookupTableScalarRangeOn();
+    mapper_->InterpolateScalarsBeforeMappingOn();
+    data_->GetPointData()->SetScalars(positions);
     data_->Modified();
 }
 

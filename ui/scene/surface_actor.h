@@ -6,7 +6,7 @@
 #include <vtkNew.h>
 
 #include "core/tessellate/tessellation.h"
-#include "ui/palette/quality_colors.h"
+#include "ui/palette/color_map.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
@@ -15,8 +15,8 @@ class vtkPolyData;
 
 namespace curvewright {
 
-/// The surface of a tessellation, one colour per element; on request hatched with stripes of constant width on the
-/// screen.
+/// The surface of a tessellation, one colour per element or those of a field; on request hatched with stripes of
+/// constant width on the screen.
 class SurfaceActor {
   public:
     SurfaceActor();
@@ -28,6 +28,8 @@ class SurfaceActor {
     /// is_new: the connectivity is not that of the call before.
     void set_surface(const Tessellation& tessellation, bool is_new);
     void set_colors(const Tessellation& tessellation, const std::function<Color(Index element)>& color_of);
+    /// values: one per surface point, NaN = none; between the points they, not their colours, are interpolated.
+    void set_field(const std::vector<double>& values, const ColorScale& scale);
     void clear();
 
     /// Soft light from the eye (3D), or the colours as they are (2D).
