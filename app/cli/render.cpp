@@ -4,6 +4,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/output.h"
+#include "app/cli/render_colors.h"
 #include "core/base/error.h"
 #include "ui/scene/offscreen.h"
 
@@ -14,6 +15,7 @@ struct Options {
     std::filesystem::path mesh, output;
     int width = 1200, height = 900;
     SceneOptions scene;
+    RenderColors colors;
 };
 
 /// "WxH".
@@ -31,7 +33,9 @@ std::string parse_size(const std::string& text, Options& options) {
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult input = read_input(options.mesh, invocation, context, timings);
+    const CurvedMesh& mesh = input.mesh;
+    const Coloring coloring = find_coloring(options.colors, input, context);
     if (options.output.extension() != ".png")
         throw InvalidInput(options.output.string(), 0, "pictures are written as .png.");
     std::optional<QualityReport> quality;
@@ -42,6 +46,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     if (mesh.topology().dimension() != 3) scene_options.clip.reset();
     scene.set_options(scene_options);
+    scene.set_coloring(coloring);
     scene.set_mesh(&mesh, quality ? &*quality : nullptr);
     render_png(scene, options.width, options.height, options.output);
     timings["render"] = rendering.seconds();
@@ -50,6 +55,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
         print_json(
             {{"mesh", mesh_json(options.mesh, mesh)},
              {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
+             {"colors", colors_json(options.colors, scene.shown_scale())},
              {"timings", timings}});
     else
         fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
@@ -59,7 +65,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 }  // namespace
 
 void add_render(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "render", "Picture of the mesh, coloured by scaled Jacobian");
+    auto* command = add_command(app, invocation, "render",
+                                "Picture of the mesh, coloured by scaled Jacobian or an array of the file");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh, "MESH");
     command->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("PNG");
@@ -83,6 +90,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
             },
             "3D: hide the half of the elements beyond the middle in x, y or z")
         ->check(CLI::IsMember({"x", "y", "z"}));
+    add_color_options(*command, options->colors);
     set_action(*command, invocation, options, run);
 }
 
