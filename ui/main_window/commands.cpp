@@ -60,6 +60,7 @@ const Command command_list[] = {
     {CommandId::worst_only, CommandMenu::view, "worst_only", TEXT("Only the &worst"), TEXT("Show the ten elements of the lowest scaled Jacobian alone"), "worst", "W", true, false, 5},
     {CommandId::compare, CommandMenu::view, "compare", TEXT("&Before and now"), TEXT("Show the mesh before and after the last step side by side"), "compare", "B", true, false, 5},
     {CommandId::legend, CommandMenu::view, "legend", TEXT("&Legend"), TEXT("Show the scale of colours"), "legend", "L", true, false, 5},
+    {CommandId::colors, CommandMenu::view, "colors", TEXT("&Colours"), TEXT("Choose what the colours show, their map and their range"), "", "K", true},
     {CommandId::theme_system, CommandMenu::theme, "theme_system", TEXT("Follow the &system"), TEXT("Light or dark, as the system is"), "", "", true},
     {CommandId::theme_light, CommandMenu::theme, "theme_light", TEXT("&Light"), TEXT("Dark text on light ground"), "", "", true},
     {CommandId::theme_dark, CommandMenu::theme, "theme_dark", TEXT("&Dark"), TEXT("Light text on dark ground"), "", "", true},

@@ -57,6 +57,7 @@ enum class CommandId {
     edges,
     nodes,
     legend,
+    colors,
     clip,
     shrink,
     worst_only,

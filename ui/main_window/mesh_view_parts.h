@@ -57,6 +57,7 @@ struct MeshView::Parts {
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
     bool may_be_click = false;
+    bool legend_has_mouse = false;  ///< between a press on the legend and its release
     QPointer<Tool> tool;
     bool tool_has_mouse = false;  ///< between a press that the tool took and its release
 };
