@@ -194,7 +194,7 @@ class ColorsTest : public QObject {
         ColorsUnderTest test;
         test.show_bar();
         test.choose("color_quantity", "dist");
-        const Color still = map_color(ColorMap::deep, 0.0);
+        const Color still = map_color(ColorMap::warm, 1.0);
         QVERIFY(ColorsUnderTest::is_close(test.seen({0.5, 0.06, 0.0}), still, 0.01));
         const Index node = test.node_at(0.5, 0.0), inside = test.node_at(0.5, 1.0 / 12.0);
         const Eigen::RowVector3d start = test.positions().row(inside);
@@ -209,8 +209,8 @@ class ColorsTest : public QObject {
         QCOMPARE(test.view().shown_scale().upper, moved.y());
         const Eigen::RowVector3d followed = test.positions().row(inside);
         QVERIFY((followed - start).norm() > 0.02);
-        QVERIFY(ColorsUnderTest::is_close(test.seen(followed),
-                                          map_color(ColorMap::deep, (followed - start).norm() / moved.y()), 0.05));
+        QVERIFY(ColorsUnderTest::is_close(
+            test.seen(followed), map_color(ColorMap::warm, 1.0 - (followed - start).norm() / moved.y()), 0.05));
         test.click("tool_undo");
         QTest::qWait(60);
         QVERIFY(ColorsUnderTest::is_close(test.seen({0.5, 0.06, 0.0}), still, 0.01));
@@ -352,7 +352,7 @@ class ColorsTest : public QObject {
         }
         test.choose("color_quantity", "dist");
         QVERIFY(ColorsUnderTest::is_close(ColorsUnderTest::seen_in(before, {0.5, 0.06, 0.0}),
-                                          map_color(ColorMap::deep, 0.0), 0.01));
+                                          map_color(ColorMap::warm, 1.0), 0.01));
         test.choose("color_quantity", "pres");
         QVERIFY(ColorsUnderTest::is_close(ColorsUnderTest::seen_in(before, {0.3, 0.6, 0.0}),
                                           test.view().shown_scale().color_of(pressure(0.3, 0.6))));

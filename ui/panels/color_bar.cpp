@@ -76,7 +76,12 @@ QIcon map_icon(ColorMap map, bool is_reversed, const QColor& outline) {
 }
 
 ColorMap default_map(Kind kind) {
-    return kind == Kind::scaled_jacobian || kind == Kind::shape ? ColorMap::warm : ColorMap::deep;
+    return kind == Kind::size || kind == Kind::array ? ColorMap::deep : ColorMap::warm;
+}
+
+/// What has not moved is quiet.
+bool is_reversed_first(Kind kind) {
+    return kind == Kind::distance_moved;
 }
 
 std::optional<double> number_of(const QVariant& value) {
@@ -250,7 +255,8 @@ void ColorBar::load(const Quantity& quantity) {
     setting_.array = quantity.array;
     const auto value = [&](const char* what) { return settings.value(setting_name(quantity.key, what)); };
     setting_.map = color_map_of(value("map").toString().toStdString()).value_or(default_map(quantity.kind));
-    setting_.is_reversed = value("reversed").toBool();
+    setting_.is_reversed =
+        settings.value(setting_name(quantity.key, "reversed"), is_reversed_first(quantity.kind)).toBool();
     setting_.lower = number_of(value("lower"));
     setting_.upper = number_of(value("upper"));
     if (setting_.lower && setting_.upper && *setting_.lower >= *setting_.upper) setting_.lower = setting_.upper = {};
@@ -328,8 +334,7 @@ void ColorBar::read_range() {
     const auto given = [](const QLineEdit* field) { return number_of(field->text()); };
     const auto lower = given(lower_), upper = given(upper_);
     // The other end may be automatic: then it is what is shown.
-    const double low = lower.value_or(lower_->placeholderText().toDouble());
-    const double high = upper.value_or(upper_->placeholderText().toDouble());
+    const double low = lower.value_or(shown_lower_), high = upper.value_or(shown_upper_);
     const bool is_empty = (lower || upper) && !(low < high);
     for (QLineEdit* field : {lower_, upper_}) {
         field->setProperty("wrong", is_empty);
@@ -344,8 +349,14 @@ void ColorBar::read_range() {
 }
 
 void ColorBar::show_range(double lower, double upper) {
-    lower_->setPlaceholderText(QString::number(lower, 'g', 4));
-    upper_->setPlaceholderText(QString::number(upper, 'g', 4));
+    shown_lower_ = lower;
+    shown_upper_ = upper;
+    // As many digits as tell the ends apart.
+    const double size = std::max(std::abs(lower), std::abs(upper)), extent = upper - lower;
+    const int digits = extent > 0.0 && size > 0.0 ? static_cast<int>(std::ceil(std::log10(size / extent))) : 0;
+    for (const auto& [field, value] : {std::pair(lower_, lower), std::pair(upper_, upper)})
+        field->setPlaceholderText(
+            QString::number(std::abs(value) < 1e-9 * extent ? 0.0 : value, 'g', std::clamp(digits, 0, 12) + 3));
 }
 
 void ColorBar::show_setting() {

@@ -72,6 +72,7 @@ class ColorBar : public QWidget {
     std::vector<Quantity> list_;
     ColorSetting setting_;
     ColorScale quality_scale_;
+    double shown_lower_ = 0.0, shown_upper_ = 1.0;
     bool is_showing_ = false;
     QComboBox *quantity_ = nullptr, *component_ = nullptr, *map_ = nullptr;
     QToolButton *reverse_ = nullptr, *close_ = nullptr;
