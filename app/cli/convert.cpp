@@ -14,9 +14,10 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
-    CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult input = read_input(options.mesh, invocation, context, timings);
+    CurvedMesh mesh = input.mesh;
     if (options.flip) mesh = flip_orientation(mesh);
-    write_and_report(options.output, mesh, invocation, context, timings, watch);
+    write_and_report(options.output, mesh, input.fields, invocation, context, timings, watch);
     return exit_done;
 }
 

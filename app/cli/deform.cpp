@@ -16,7 +16,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult read = read_input(options.mesh, invocation, context, timings);
+    const CurvedMesh& input = read.mesh;
     const Deformation deformation = read_deformation(options.deformation, context);
     const Stopwatch deforming;
     const CurvedMesh mesh = input.with_coordinates(apply_deformation(input, deformation));
@@ -25,7 +26,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     for (Index node = 0; node < mesh.topology().node_count(); ++node)
         if (mesh.coordinates().row(node) != input.coordinates().row(node)) ++moved;
     const auto quality = certify_for(options.output, mesh, context, timings);
-    write_output(options.output, mesh, quality ? &*quality : nullptr, &input.coordinates(), timings);
+    write_output(options.output, mesh, read.fields, quality ? &*quality : nullptr, &input.coordinates(), invocation,
+                 timings);
     finish_timings(timings, watch);
     if (invocation.common.json)
         print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"moved_nodes", moved}, {"timings", timings}});

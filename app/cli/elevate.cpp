@@ -1,4 +1,7 @@
 #include "core/mesh/elevate.h"
+
+#include <fmt/format.h>
+
 #include "app/cli/command.h"
 #include "app/cli/output.h"
 
@@ -15,11 +18,21 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult input = read_input(options.mesh, invocation, context, timings);
     const Stopwatch elevating;
-    const CurvedMesh mesh = elevate(input, options.order, context);
+    const CurvedMesh mesh = elevate(input.mesh, options.order, context);
     timings["elevate"] = elevating.seconds();
-    write_and_report(options.output, mesh, invocation, context, timings, watch);
+    // The elements are the same, the nodes are others.
+    std::vector<FieldArray> fields;
+    std::string left_out;
+    for (const FieldArray& field : input.fields)
+        if (field.place == FieldArray::Place::elements)
+            fields.push_back(field);
+        else
+            left_out += (left_out.empty() ? "" : ", ") + field.name;
+    if (!left_out.empty() && !invocation.common.quiet)
+        fmt::print(stderr, "Left out, because the nodes are others: {}.\n", left_out);
+    write_and_report(options.output, mesh, fields, invocation, context, timings, watch);
     return exit_done;
 }
 

@@ -46,11 +46,20 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
                           {"cells", cells_of_group(topology, group)},
                           {"nodes", nodes ? nodes->size() : 0}});
     }
+    Json arrays = Json::array();
+    for (const FieldArray& field : input.fields) {
+        const auto range = finite_range(scalar_values(field.values, field.components, -1));
+        arrays.push_back({{"name", field.name},
+                          {"on", field.place == FieldArray::Place::nodes ? "nodes" : "elements"},
+                          {"components", field.components},
+                          {"range", range ? Json{range->first, range->second} : Json()}});
+    }
     if (invocation.common.json) {
         const Json json = {{"mesh", mesh_json(file, mesh)},
                            {"format", to_string(input.format)},
                            {"cells", types},
                            {"groups", groups},
+                           {"arrays", arrays},
                            {"entities", topology.entities().size()},
                            {"orientation", orientation},
                            {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
@@ -69,6 +78,14 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
         fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
                    group["used_as"].get<std::string>(), group["dimension"].get<int>(), group["tag"].get<int>(),
                    group["cells"].get<long>(), group["nodes"].get<std::size_t>());
+    for (const Json& array : arrays)
+        fmt::print("  array        {} on {}: {}, {}\n", array["name"].get<std::string>(),
+                   array["on"].get<std::string>(),
+                   array["components"] == 1 ? "numbers" : fmt::format("vectors of {}", array["components"].get<int>()),
+                   array["range"].is_null()
+                       ? "no value"
+                       : fmt::format("{} {:.6g} to {:.6g}", array["components"] == 1 ? "from" : "of length",
+                                     array["range"][0].get<double>(), array["range"][1].get<double>()));
     return exit_done;
 }
 

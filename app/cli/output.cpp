@@ -129,17 +129,22 @@ void check_output(const OutputOptions& output) {
         throw InvalidInput(name, 0, "there is a folder of that name; a file was expected.");
 }
 
-void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
-                  const Coordinates* reference, Json& timings) {
+void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                  const QualityReport* quality, const Coordinates* reference, const Invocation& invocation,
+                  Json& timings) {
     const Stopwatch watch;
-    write_mesh(output.file, mesh, output.write_options(quality, reference));
+    WriteOptions options = output.write_options(quality, reference);
+    options.fields = &fields;
+    const std::vector<std::string> notes = write_mesh(output.file, mesh, options);
     timings["write"] = watch.seconds();
+    if (!invocation.common.quiet)
+        for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", output.file.string(), note);
 }
 
-void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const Invocation& invocation,
-                      const TaskContext& context, Json& timings, const Stopwatch& watch) {
+void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                      const Invocation& invocation, const TaskContext& context, Json& timings, const Stopwatch& watch) {
     const auto quality = certify_for(output, mesh, context, timings);
-    write_output(output, mesh, quality ? &*quality : nullptr, nullptr, timings);
+    write_output(output, mesh, fields, quality ? &*quality : nullptr, nullptr, invocation, timings);
     finish_timings(timings, watch);
     if (invocation.common.json)
         print_json({{"mesh", mesh_json(output.file, mesh)}, {"timings", timings}});

@@ -62,12 +62,14 @@ std::optional<QualityReport> certify_for(const OutputOptions& output, const Curv
 /// Throws InvalidInput if the output cannot be: unknown suffix, no such folder, a folder in the file's place. To be
 /// called before the work.
 void check_output(const OutputOptions& output);
-/// Writes the mesh, timed as "write". quality may be null.
-void write_output(const OutputOptions& output, const CurvedMesh& mesh, const QualityReport* quality,
-                  const Coordinates* reference, Json& timings);
+/// Writes the mesh with the arrays of its nodes and elements, timed as "write". quality may be null. Says on standard
+/// error, unless --quiet, what the format could not hold.
+void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                  const QualityReport* quality, const Coordinates* reference, const Invocation& invocation,
+                  Json& timings);
 /// What commands do whose result is a mesh and nothing else: certify where it belongs in the file, write, say so.
-void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const Invocation& invocation,
-                      const TaskContext& context, Json& timings, const Stopwatch& watch);
+void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                      const Invocation& invocation, const TaskContext& context, Json& timings, const Stopwatch& watch);
 /// Adds "total" to the timings.
 void finish_timings(Json& timings, const Stopwatch& watch);
 /// Sentence on standard error when the mesh is numbered clockwise or mixed; none otherwise or with --quiet.

@@ -5,6 +5,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/output.h"
+#include "app/cli/render_colors.h"
 #include "core/base/error.h"
 #include "ui/scene/offscreen.h"
 
@@ -16,6 +17,7 @@ struct Options {
     int width = 1200, height = 900;
     SceneOptions scene;
     std::optional<double> clip_position;
+    RenderColors colors;
 };
 
 /// "WxH".
@@ -33,7 +35,9 @@ std::string parse_size(const std::string& text, Options& options) {
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult input = read_input(options.mesh, invocation, context, timings);
+    const CurvedMesh& mesh = input.mesh;
+    const Coloring coloring = find_coloring(options.colors, input, context);
     if (options.output.extension() != ".png")
         throw InvalidInput(options.output.string(), 0, "pictures are written as .png.");
     std::optional<QualityReport> quality;
@@ -48,6 +52,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     }
     if (mesh.topology().dimension() != 3) scene_options.clip.reset();
     scene.set_options(scene_options);
+    scene.set_coloring(coloring);
     scene.set_mesh(&mesh, quality ? &*quality : nullptr);
     render_png(scene, options.width, options.height, options.output);
     timings["render"] = rendering.seconds();
@@ -56,6 +61,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
         print_json(
             {{"mesh", mesh_json(options.mesh, mesh)},
              {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
+             {"colors", colors_json(options.colors, scene.shown_scale())},
              {"timings", timings}});
     else
         fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
@@ -65,7 +71,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 }  // namespace
 
 void add_render(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "render", "Picture of the mesh, coloured by scaled Jacobian");
+    auto* command = add_command(app, invocation, "render",
+                                "Picture of the mesh, coloured by scaled Jacobian or an array of the file");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh, "MESH");
     command->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("PNG");
@@ -112,6 +119,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
         if (command->count("--clip-at") > 0 && command->count("--clip") + command->count("--cut") == 0)
             throw CLI::ValidationError("--clip-at", "is for --clip or --cut");
     });
+    add_color_options(*command, options->colors);
     set_action(*command, invocation, options, run);
 }
 

@@ -40,8 +40,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const Assessment before = assess(replay.opened(), context, timings);
     const Assessment quality = assess_result(replay.mesh(), before, context, timings);
     if (writes)
-        write_output(options.output, replay.mesh(), quality.report ? &*quality.report : nullptr,
-                     &replay.opened().coordinates(), timings);
+        write_output(options.output, replay.mesh(), replay.fields(), quality.report ? &*quality.report : nullptr,
+                     &replay.opened().coordinates(), invocation, timings);
     finish_timings(timings, watch);
     const std::filesystem::path file = writes ? options.output.file : std::filesystem::path(replay.mesh_file());
     if (invocation.common.json) {

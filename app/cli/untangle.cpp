@@ -168,7 +168,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     check_output(options.output);
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh input = read_input(options.mesh, invocation, context, timings).mesh;
+    const ReadResult read = read_input(options.mesh, invocation, context, timings);
+    const CurvedMesh& input = read.mesh;
     const QualityReport before = certify(input, context, timings);
     warn_about_orientation(before, invocation);
     std::optional<TraceFile> trace;
@@ -183,7 +184,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), context);
     if (trace) trace->commit();
-    write_output(options.output, mesh, &after, &input.coordinates(), timings);
+    write_output(options.output, mesh, read.fields, &after, &input.coordinates(), invocation, timings);
     finish_timings(timings, watch);
 
     if (invocation.common.json) {

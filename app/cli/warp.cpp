@@ -145,7 +145,8 @@ int run(const WarpArguments& arguments, const Invocation& invocation, const Task
     check_output(arguments.output);
     const Stopwatch watch;
     Json timings = Json::object();
-    const CurvedMesh input = read_input(arguments.mesh, invocation, context, timings).mesh;
+    const ReadResult read = read_input(arguments.mesh, invocation, context, timings);
+    const CurvedMesh& input = read.mesh;
     const Deformation deformation = read_deformation(arguments.deformation, context);
     const Assessment before = assess(input, context, timings);
     if (before.report) warn_about_orientation(*before.report, invocation);
@@ -153,8 +154,9 @@ int run(const WarpArguments& arguments, const Invocation& invocation, const Task
     timings["neighbours"] = outcome.report.neighbours_seconds;
     timings["weights"] = outcome.report.weights_seconds;
     timings["solve"] = outcome.report.solve_seconds;
-    write_output(arguments.output, outcome.mesh, outcome.quality.report ? &*outcome.quality.report : nullptr,
-                 &input.coordinates(), timings);
+    write_output(arguments.output, outcome.mesh, read.fields,
+                 outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), invocation,
+                 timings);
     finish_timings(timings, watch);
 
     print_remarks(arguments, outcome, invocation);

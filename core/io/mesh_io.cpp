@@ -73,7 +73,44 @@ ReadResult read_mesh(const std::filesystem::path& file, const TaskContext& conte
     return read_vtk(std::move(text), file.string(), *format, context);
 }
 
-void write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh, const WriteOptions& options) {
+namespace {
+
+void check_fields(const std::vector<FieldArray>& fields, const MeshTopology& topology) {
+    Index cells = 0;
+    for (const ElementBlock& block : topology.blocks()) cells += block.size();
+    for (const FieldArray& field : fields) {
+        const bool is_on_nodes = field.place == FieldArray::Place::nodes;
+        const auto width = static_cast<std::size_t>(std::max(field.components, 1));
+        const auto count = static_cast<std::size_t>(is_on_nodes ? topology.node_count() : topology.element_count());
+        const auto lower = static_cast<std::size_t>(cells - topology.element_count());
+        if (field.components < 1 || field.values.size() != count * width ||
+            (!field.lower_values.empty() && field.lower_values.size() != lower * width))
+            throw InvalidInput(fmt::format("The array {} does not have one row for each of the {} {} of the mesh.",
+                                           field.name, count, is_on_nodes ? "nodes" : "elements"));
+    }
+}
+
+/// The arrays without those that the options give anew.
+std::vector<FieldArray> kept_fields(const WriteOptions& options) {
+    std::vector<FieldArray> kept;
+    if (options.fields == nullptr) return kept;
+    for (const FieldArray& field : *options.fields) {
+        const bool is_on_nodes = field.place == FieldArray::Place::nodes;
+        const bool is_quality = !is_on_nodes && (field.name == "ScaledJacobian" || field.name == "Validity");
+        if (options.quality != nullptr && is_quality) continue;
+        if (options.reference != nullptr && is_on_nodes && field.name == "Displacement") continue;
+        kept.push_back(field);
+    }
+    return kept;
+}
+
+}  // namespace
+
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh,
+                                    const WriteOptions& options) {
+    std::vector<std::string> notes;
+    const std::vector<FieldArray> fields = kept_fields(options);
+    check_fields(fields, mesh.topology());
     if (is_compressed(file))
         throw InvalidInput(file.string(), 0, "compressed files can be read but not written; leave out \".gz\".");
     const auto format = options.format ? options.format : format_of_suffix(file);
@@ -83,17 +120,21 @@ void write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh, const
         throw Unsupported(fmt::format("{}: binary MSH cannot be written; MSH is written as text.", file.string()));
     if (!is_msh) {
         AtomicFile atomic(file);
-        write_vtk(atomic.path(), file.string(), mesh, *format, options);
+        WriteOptions with_kept = options;
+        with_kept.fields = &fields;
+        write_vtk(atomic.path(), file.string(), mesh, *format, with_kept, notes);
         atomic.commit();
-        return;
+        return notes;
     }
     std::string text;
     try {
         text = *format == MeshFormat::msh2 ? msh2_text(mesh) : msh4_text(mesh);
+        text += msh_data_text(mesh, fields, notes);
     } catch (const Unsupported& error) {
         throw Unsupported(fmt::format("{}: {}", file.string(), error.what()));
     }
     write_text_file(file, text);
+    return notes;
 }
 
 }  // namespace curvewright

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/mesh/curved_mesh.h"
+#include "core/mesh/field_array.h"
 #include "core/quality/quality.h"
 
 namespace curvewright {
@@ -19,6 +20,9 @@ struct ReadResult {
     MeshFormat format = MeshFormat::msh4;
     /// Things the reader passed over or repaired, one sentence each ("Section $Periodic was skipped.").
     std::vector<std::string> notes;
+    /// The file's arrays of numbers on nodes and elements, with names of their own among those of one place. Not this
+    /// program's own of a file that it wrote, but for Displacement.
+    std::vector<FieldArray> fields;
 };
 
 /// Reads a mesh; the suffix tells the format: .msh (4.1, 4.0 and 2.2 ASCII, by its header), .msh.gz (the same,
@@ -36,12 +40,17 @@ struct WriteOptions {
     const QualityReport* quality = nullptr;
     /// VTU and VTK: point array Displacement = coordinates - reference. Same size as the mesh's coordinates.
     const Coordinates* reference = nullptr;
+    /// Arrays of the nodes and elements of this mesh, written along. An array with the name of one of the above is left
+    /// out.
+    const std::vector<FieldArray>* fields = nullptr;
 };
 
 /// Writes a mesh with all its cells, tags, groups and entities: to a temporary file beside the target, which takes its
 /// name only when it is complete. Throws InvalidInput if the file cannot be written or the suffix is unknown;
-/// Unsupported if the format cannot hold the mesh.
-void write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh, const WriteOptions& options = {});
+/// Unsupported if the format cannot hold the mesh. Returns what the format could not hold of the arrays, one sentence
+/// each.
+std::vector<std::string> write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh,
+                                    const WriteOptions& options = {});
 
 /// Format that a file name means; none if the suffix is unknown.
 std::optional<MeshFormat> format_of_suffix(const std::filesystem::path& file);

@@ -19,4 +19,9 @@ std::string msh4_text(const CurvedMesh& mesh);
 /// The classification of nodes and entities without elements have no place in the format. Throws like msh4_text.
 std::string msh2_text(const CurvedMesh& mesh);
 
+/// The sections $NodeData and $ElementData of arrays, for both versions. Values that are missing are left out. MSH
+/// knows rows of 1, 3 and 9 numbers: two become three, others arrays of their components, of which notes tell.
+std::string msh_data_text(const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                          std::vector<std::string>& notes);
+
 }  // namespace curvewright

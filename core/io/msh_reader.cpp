@@ -6,6 +6,7 @@
 #include "core/basis/node_ordering.h"
 #include "core/io/mesh_entities.h"
 #include "core/io/msh2_elements.h"
+#include "core/io/msh_data.h"
 #include "core/io/msh_io.h"
 #include "core/io/msh_scanner.h"
 #include "core/io/msh_types.h"
@@ -61,8 +62,10 @@ class MshReader {
         complete_entities(data_, coordinates);
         complete_groups(data_);
         context_.report("reading", 1.0);
-        return {assemble_mesh(std::move(data_), coordinates, in_.file()),
-                version_ < 3.0 ? MeshFormat::msh2 : MeshFormat::msh4, std::move(notes_)};
+        CurvedMesh mesh = assemble_mesh(std::move(data_), coordinates, in_.file());
+        std::vector<FieldArray> fields = arrays_.attach(mesh.topology(), notes_);
+        return {std::move(mesh), version_ < 3.0 ? MeshFormat::msh2 : MeshFormat::msh4, std::move(notes_),
+                std::move(fields)};
     }
 
   private:
@@ -88,6 +91,7 @@ class MshReader {
     }
 
     MshScanner in_;
+    MshData arrays_;
     const TaskContext& context_;
     double version_ = 0.0;
     bool has_nodes_ = false, has_elements_ = false, has_entities_ = false, has_negative_groups_ = false;
@@ -135,6 +139,8 @@ void MshReader::read_section() {
         read_elements_4();
     else if (name == "Elements")
         read_elements_2();
+    else if (name == "NodeData" || name == "ElementData")
+        arrays_.read(in_, name == "NodeData" ? FieldArray::Place::nodes : FieldArray::Place::elements, context_);
     else {
         in_.skip_section(name);
         if (name != "Comments") notes_.push_back(fmt::format("Section ${} was skipped.", name));

@@ -78,17 +78,20 @@ class MshScanner {
             fail(fmt::format("\"{}\" stands where {} was expected.", shown(text), what));
         return value;
     }
-    double real(std::string_view what) {
-        std::string_view text = word(what);
-        const std::string_view whole = text;
-        if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        const bool underflow = error == std::errc::result_out_of_range && text.find("-", 1) != text.npos;
-        if (underflow) value = 0.0;
-        if ((error != std::errc() && !underflow) || end != text.data() + text.size() || !std::isfinite(value))
-            fail(fmt::format("\"{}\" stands where {} (a finite number) was expected.", shown(whole), what));
-        return value;
+    /// A finite number.
+    double real(std::string_view what) { return number(what, true); }
+    /// A number, or nan or inf.
+    double any_real(std::string_view what) { return number(what, false); }
+    /// What stands between quotation marks in one line.
+    std::string_view quoted(std::string_view what) {
+        skip_space();
+        word_begin_ = std::min(position_, text_.empty() ? 0 : text_.size() - 1);
+        const std::string_view rest = text_.substr(position_, text_.find('\n', position_) - position_);
+        const std::size_t close = rest.find('"', 1);
+        if (!rest.starts_with('"') || close == rest.npos)
+            fail(fmt::format("\"{}\" stands where {} in quotation marks was expected.", shown(rest), what));
+        position_ += close + 1;
+        return rest.substr(1, close - 1);
     }
     /// A number of things that follow, each of at least `bytes_each` bytes: what cannot be in the file is refused
     /// before anybody makes room for it.
@@ -121,6 +124,20 @@ class MshScanner {
     }
 
   private:
+    double number(std::string_view what, bool is_finite) {
+        std::string_view text = word(what);
+        const std::string_view whole = text;
+        if (text.size() > 1 && text.front() == '+') text.remove_prefix(1);
+        double value = 0.0;
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        const bool underflow = error == std::errc::result_out_of_range && text.find("-", 1) != text.npos;
+        if (underflow) value = 0.0;
+        if ((error != std::errc() && !underflow) || end != text.data() + text.size() ||
+            (is_finite && !std::isfinite(value)))
+            fail(fmt::format("\"{}\" stands where {} (a {}number) was expected.", shown(whole), what,
+                             is_finite ? "finite " : ""));
+        return value;
+    }
     static bool is_space(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
     void skip_space() {
         while (position_ < text_.size() && is_space(text_[position_])) ++position_;

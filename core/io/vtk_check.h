@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <optional>
 #include <string_view>
 
 #include "core/io/msh_scanner.h"
@@ -31,7 +32,7 @@ class LegacyVtkCheck {
         const std::size_t points = find_keyword("POINTS", mode.position());
         MshScanner point_line = scanner_at(points);
         point_line.word("POINTS");
-        const std::size_t numbers = 3 * point_line.count("points", is_text_ ? 6 : 3);
+        const std::size_t points_count = point_line.count("points", is_text_ ? 6 : 3), numbers = 3 * points_count;
         if (is_text_) {
             point_line.word("the type of the points");
             for (std::size_t i = 0; i < numbers; ++i) point_line.real("a coordinate");
@@ -51,6 +52,7 @@ class LegacyVtkCheck {
             const std::size_t types = in.count("cell types");
             if (types + (is_new ? 1 : 0) != first) in.fail("the cell types are not as many as the cells.");
             for (std::size_t i = 0; i < types; ++i) in.integer<int>("a cell type");
+            check_arrays(in, points_count, types);
         }
     }
 
@@ -73,25 +75,72 @@ class LegacyVtkCheck {
             if (in.peek() != "POINTS") in.fail("POINTS or FIELD was expected.");
             return;
         }
+        check_field(in, std::nullopt);
+    }
+    /// FIELD NAME COUNT, then arrays; of points or cells, with as many rows as these.
+    static void check_field(MshScanner& in, std::optional<std::size_t> rows) {
         in.word("FIELD");
         in.word("the name of the field data");
         const std::size_t arrays = in.count("arrays", 8);
         for (std::size_t array = 0; array < arrays; ++array) {
             in.word("the name of an array");
             const std::size_t components = in.count("components"), tuples = in.count("tuples", 1);
-            const std::string_view type = in.word("the type of an array");
-            if (std::find(array_types.begin(), array_types.end(), type) == array_types.end())
-                in.fail("the type of an array was expected.");
-            const bool is_string = type == "string";
+            if (rows && tuples != *rows) in.fail(fmt::format("an array has {} rows; {} were expected.", tuples, *rows));
+            const std::string_view type = read_type(in);
             in.rest_of_line();
-            if (components != 0 && tuples > in.remaining() / components) in.fail("the array is longer than the file.");
-            for (std::size_t i = 0; i < components * tuples; ++i) {
-                if (is_string)
-                    in.next_line();
-                else
-                    in.real("a number of an array");
+            check_numbers(in, components, tuples, type == "string");
+        }
+    }
+    static std::string_view read_type(MshScanner& in) {
+        const std::string_view type = in.word("the type of an array");
+        if (std::find(array_types.begin(), array_types.end(), type) == array_types.end())
+            in.fail("the type of an array was expected.");
+        return type;
+    }
+    static void check_numbers(MshScanner& in, std::size_t components, std::size_t tuples, bool is_string = false) {
+        if (components != 0 && tuples > in.remaining() / components) in.fail("the array is longer than the file.");
+        for (std::size_t i = 0; i < components * tuples; ++i) {
+            if (is_string)
+                in.next_line();
+            else
+                in.real("a number of an array");
+        }
+        if (in.peek() == "METADATA") in.skip_to_blank_line();
+    }
+    /// Text files: what stands behind the cells, as far as it is known.
+    static void check_arrays(MshScanner& in, std::size_t points, std::size_t cells) {
+        std::optional<std::size_t> rows;
+        while (!in.at_end()) {
+            const std::string_view keyword = in.peek();
+            const auto known = std::find_if(attributes.begin(), attributes.end(),
+                                            [&](const Attribute& attribute) { return attribute.keyword == keyword; });
+            if (keyword == "POINT_DATA" || keyword == "CELL_DATA") {
+                in.word(keyword);
+                const std::size_t expected = keyword == "POINT_DATA" ? points : cells;
+                rows = in.count("rows of the data", 1);
+                if (*rows != expected)
+                    in.fail(fmt::format("the data are announced for {} {}, but there are {}.", *rows,
+                                        keyword == "POINT_DATA" ? "points" : "cells", expected));
+            } else if (rows && keyword == "FIELD") {
+                check_field(in, rows);
+            } else if (rows && known != attributes.end()) {
+                in.word(keyword);
+                in.word("the name of an array");
+                read_type(in);
+                std::size_t components = known->components;
+                if (keyword == "SCALARS") {
+                    MshScanner line = in;  // the number of components may stand there, or not
+                    const std::string_view rest = line.rest_of_line();
+                    if (rest.find_first_not_of(" \t") != rest.npos) components = in.count("components", 1);
+                    if (in.peek() == "LOOKUP_TABLE") {
+                        in.word("LOOKUP_TABLE");
+                        in.word("the name of a table");
+                    }
+                }
+                check_numbers(in, components, *rows);
+            } else {
+                return;  // VTK knows more than this, and what of it is seldom seen
             }
-            if (in.peek() == "METADATA") in.skip_to_blank_line();
         }
     }
     /// The next integer: a word, or big-endian bytes.
@@ -144,6 +193,13 @@ class LegacyVtkCheck {
         "bit", "char",         "signed_char", "unsigned_char", "short", "unsigned_short", "vtkIdType",   "string",
         "int", "unsigned_int", "long",        "unsigned_long", "float", "double",         "vtktypeint64"};
 
+    struct Attribute {
+        std::string_view keyword;
+        std::size_t components;
+    };
+    static constexpr std::array<Attribute, 5> attributes = {
+        {{"SCALARS", 1}, {"VECTORS", 3}, {"NORMALS", 3}, {"TENSORS", 9}, {"TENSORS6", 6}}};
+
     std::string_view text_;
     std::string file_;
     bool is_text_ = true;
@@ -167,8 +223,15 @@ inline void check_xml_arrays(std::string_view text, const std::string& file) {
             return rest.substr(0, rest.find('"'));
         };
         const std::string_view type = attribute("type"), offset = attribute("offset");
+        const std::string_view components = attribute("NumberOfComponents");
         if (std::find(types.begin(), types.end(), type) == types.end())
             throw InvalidInput(file, 0, fmt::format("an array has the unknown type \"{}\".", type.substr(0, 40)));
+        const bool has_few = components.size() <= 4 && std::all_of(components.begin(), components.end(),
+                                                                   [](char c) { return c >= '0' && c <= '9'; });
+        if (!has_few)
+            throw InvalidInput(file, 0,
+                               fmt::format("an array has \"{}\" components; a number below 10000 was expected.",
+                                           components.substr(0, 40)));
         if (!std::all_of(offset.begin(), offset.end(), [](char c) { return c >= '0' && c <= '9'; }))
             throw InvalidInput(
                 file, 0, fmt::format("an array has the offset \"{}\"; a number was expected.", offset.substr(0, 40)));

@@ -135,6 +135,82 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
     grid.GetCellData()->AddArray(validity);
 }
 
+/// Whether the cells of a block are what the mesh calls its elements.
+bool holds_elements(const ElementBlock& block, const MeshTopology& topology) {
+    const int dim = dimension(block.type.shape);
+    return dim > 0 && dim == topology.dimension();
+}
+
+/// values: in the order of the grid's points or cells.
+vtkSmartPointer<vtkDataArray> field_array(const FieldArray& field, std::vector<double> values, bool is_legacy_text,
+                                          std::vector<std::string>& notes) {
+    bool is_integer = field.is_integer;
+    std::size_t missing = 0;
+    for (double& value : values) {
+        if (is_legacy_text && !std::isfinite(value)) {
+            value = 0.0;
+            ++missing;
+        }
+        is_integer = is_integer && std::abs(value) < 9e15 && value == std::floor(value);
+    }
+    if (missing > 0)
+        notes.push_back(
+            fmt::format("Of the array {}, {} values that are missing were written as 0, because legacy VTK "
+                        "text cannot say so; .vtu can.",
+                        field.name, missing));
+    const auto rows = static_cast<vtkIdType>(values.size()) / field.components;
+    if (is_integer) {
+        auto array = new_array<vtkTypeInt64Array>(field.name.c_str(), field.components, rows);
+        std::copy(values.begin(), values.end(), array->GetPointer(0));
+        return array;
+    }
+    auto array = new_array<vtkDoubleArray>(field.name.c_str(), field.components, rows);
+    std::copy(values.begin(), values.end(), array->GetPointer(0));
+    return array;
+}
+
+/// The values of all cells in the order of the blocks.
+std::vector<double> cell_values(const FieldArray& field, const MeshTopology& topology) {
+    const auto width = static_cast<std::size_t>(field.components);
+    std::vector<double> values;
+    std::size_t element = 0, lower = 0;
+    for (const ElementBlock& block : topology.blocks()) {
+        const bool are_elements = holds_elements(block, topology);
+        const std::size_t count = width * block.tags.size();
+        const std::vector<double>& from = are_elements ? field.values : field.lower_values;
+        std::size_t& next = are_elements ? element : lower;
+        if (from.empty()) {
+            values.insert(values.end(), count, std::numeric_limits<double>::quiet_NaN());
+        } else {
+            const auto begin = from.begin() + static_cast<std::ptrdiff_t>(next);
+            values.insert(values.end(), begin, begin + static_cast<std::ptrdiff_t>(count));
+        }
+        next += count;
+    }
+    return values;
+}
+
+void fill_fields(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
+                 bool is_legacy_text, std::vector<std::string>& notes) {
+    for (const FieldArray& field : fields) {
+        const bool is_on_nodes = field.place == FieldArray::Place::nodes;
+        vtkFieldData* data = is_on_nodes ? static_cast<vtkFieldData*>(grid.GetPointData()) : grid.GetCellData();
+        if (data->HasArray(field.name.c_str()) != 0) continue;
+        if (is_on_nodes) {
+            data->AddArray(field_array(field, field.values, is_legacy_text, notes));
+            continue;
+        }
+        FieldArray whole = field;
+        // That boundary cells have no values is nothing to tell of.
+        if (is_legacy_text && whole.lower_values.empty()) {
+            std::size_t cells = 0;
+            for (const ElementBlock& block : mesh.topology().blocks()) cells += block.tags.size();
+            whole.lower_values.assign((cells - field.size()) * static_cast<std::size_t>(field.components), 0.0);
+        }
+        data->AddArray(field_array(field, cell_values(whole, mesh.topology()), is_legacy_text, notes));
+    }
+}
+
 void fill_field_data(vtkUnstructuredGrid& grid, const MeshData& data) {
     vtkFieldData* field = grid.GetFieldData();
     std::vector<int> entities, groups, node_entities;
@@ -206,7 +282,12 @@ class GridReader {
         if (!is_ours_) note_gmsh_order();
         complete_entities(data_, coordinates_);
         complete_groups(data_);
-        return {assemble_mesh(std::move(data_), std::move(coordinates_), file_), format_, std::move(notes_)};
+        CurvedMesh mesh = assemble_mesh(std::move(data_), std::move(coordinates_), file_);
+        std::vector<FieldArray> fields = read_fields(*grid_.GetPointData(), FieldArray::Place::nodes, mesh.topology());
+        for (FieldArray& field : read_fields(*grid_.GetCellData(), FieldArray::Place::elements, mesh.topology()))
+            fields.push_back(std::move(field));
+        make_names_unique(fields);
+        return {std::move(mesh), format_, std::move(notes_), std::move(fields)};
     }
 
   private:
@@ -217,6 +298,8 @@ class GridReader {
     void read_field_data();
     bool read_entities();
     void note_gmsh_order();
+    std::vector<FieldArray> read_fields(vtkDataSetAttributes& data, FieldArray::Place place,
+                                        const MeshTopology& topology);
 
     vtkUnstructuredGrid& grid_;
     std::string file_;
@@ -418,11 +501,64 @@ void GridReader::note_gmsh_order() {
                         suspicious, tetrahedra));
 }
 
+std::vector<FieldArray> GridReader::read_fields(vtkDataSetAttributes& data, FieldArray::Place place,
+                                                const MeshTopology& topology) {
+    const bool is_on_nodes = place == FieldArray::Place::nodes;
+    const vtkIdType rows = is_on_nodes ? grid_.GetNumberOfPoints() : grid_.GetNumberOfCells();
+    // Bookkeeping, and what is computed anew for every file that this program writes.
+    std::set<std::string> skipped = {node_tag_name, element_tag_name, entity_tag_name, "vtkGhostType"};
+    if (is_ours_ && !is_on_nodes) skipped.insert({"PhysicalGroup", "ScaledJacobian", "Validity"});
+    std::vector<FieldArray> fields;
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
+        vtkAbstractArray* any = data.GetAbstractArray(i);
+        if (any == nullptr || (!is_on_nodes && any == data.GetHigherOrderDegrees())) continue;
+        FieldArray field;
+        field.name = any->GetName() != nullptr ? any->GetName() : "";
+        if (field.name.empty()) field.name = fmt::format("array {}", i + 1);
+        if (skipped.contains(field.name)) continue;
+        auto* array = vtkDataArray::SafeDownCast(any);
+        if (array == nullptr || array->GetNumberOfTuples() != rows || array->GetNumberOfComponents() < 1) {
+            notes_.push_back(fmt::format("The array {} was left out: it {}.", field.name,
+                                         array == nullptr
+                                             ? "holds no numbers"
+                                             : fmt::format("has {} rows for {} {}", array->GetNumberOfTuples(), rows,
+                                                           is_on_nodes ? "points" : "cells")));
+            continue;
+        }
+        field.place = place;
+        field.components = array->GetNumberOfComponents();
+        field.is_integer = array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
+        const auto width = static_cast<std::size_t>(field.components);
+        std::vector<double> row(width);
+        bool has_lower = false;
+        const auto take = [&](vtkIdType at, std::vector<double>& to) {
+            array->GetTuple(at, row.data());
+            to.insert(to.end(), row.begin(), row.end());
+            has_lower = has_lower || (&to == &field.lower_values &&
+                                      std::any_of(row.begin(), row.end(), [](double v) { return !std::isnan(v); }));
+        };
+        field.values.reserve(width * static_cast<std::size_t>(rows));
+        if (is_on_nodes) {
+            for (vtkIdType at = 0; at < rows; ++at) take(at, field.values);
+        } else {
+            vtkIdType cell = 0;
+            for (const ElementBlock& block : topology.blocks())
+                for (Index k = 0; k < block.size(); ++k)
+                    take(cell++, holds_elements(block, topology) ? field.values : field.lower_values);
+        }
+        if (!has_lower) field.lower_values.clear();
+        fields.push_back(std::move(field));
+    }
+    return fields;
+}
+
 }  // namespace
 
-void fill_grid(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options, bool is_legacy_text) {
+void fill_grid(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options, bool is_legacy_text,
+               std::vector<std::string>& notes) {
     fill_points(grid, mesh, options);
     fill_cells(grid, mesh, options, is_legacy_text);
+    if (options.fields != nullptr) fill_fields(grid, mesh, *options.fields, is_legacy_text, notes);
     fill_field_data(grid, mesh.topology().data());
 }
 

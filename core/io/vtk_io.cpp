@@ -124,6 +124,34 @@ std::string exact_rows(vtkDataArray& array) {
     return fmt::to_string(text);
 }
 
+/// A name as VTK writes it into legacy files.
+std::string encoded(const char* name) {
+    std::string text;
+    for (const char* at = name; *at != 0; ++at) {
+        const auto c = static_cast<unsigned char>(*at);
+        if (c < 33 || c > 126 || c == '"' || c == '%')
+            text += fmt::format("%{:02X}", c);
+        else
+            text += *at;
+    }
+    return text;
+}
+
+/// Names with what has a meaning in XML, which VTK 9.1 writes as it is and cannot read again.
+void escape_names(vtkFieldData& data) {
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
+        vtkAbstractArray* array = data.GetAbstractArray(i);
+        std::string text;
+        for (const char c : std::string_view(array->GetName()))
+            text += c == '&'   ? "&amp;"
+                    : c == '<' ? "&lt;"
+                    : c == '>' ? "&gt;"
+                    : c == '"' ? "&quot;"
+                               : std::string(1, static_cast<unsigned char>(c) < ' ' ? ' ' : c);
+        if (text != array->GetName()) array->SetName(text.c_str());
+    }
+}
+
 /// Puts all digits of an array into a legacy text file, where VTK writes eleven. header: the line before the numbers.
 void restore_digits(std::string& text, const std::string& header, vtkDataArray& array) {
     const std::size_t found = text.find("\n" + header + "\n");
@@ -149,7 +177,7 @@ std::string legacy_text(vtkUnstructuredGridWriter& writer, vtkUnstructuredGrid& 
         for (int i = 0; i < data->GetNumberOfArrays(); ++i)
             if (vtkDataArray* array = data->GetArray(i); array != nullptr && array->GetDataType() == VTK_DOUBLE)
                 restore_digits(text,
-                               fmt::format("{} {} {} double", array->GetName(), array->GetNumberOfComponents(),
+                               fmt::format("{} {} {} double", encoded(array->GetName()), array->GetNumberOfComponents(),
                                            array->GetNumberOfTuples()),
                                *array);
     return text;
@@ -212,11 +240,11 @@ ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format
 }
 
 void write_vtk(const std::filesystem::path& path, const std::string& target, const CurvedMesh& mesh, MeshFormat format,
-               const WriteOptions& options) {
+               const WriteOptions& options, std::vector<std::string>& notes) {
     const bool is_text = !options.binary.value_or(format == MeshFormat::vtu);
     vtkNew<vtkUnstructuredGrid> grid;
     try {
-        fill_grid(*grid, mesh, options, is_text && format == MeshFormat::vtk);
+        fill_grid(*grid, mesh, options, is_text && format == MeshFormat::vtk, notes);
     } catch (const Unsupported& error) {
         throw Unsupported(fmt::format("{}: {}", target, error.what()));
     }
@@ -228,6 +256,8 @@ void write_vtk(const std::filesystem::path& path, const std::string& target, con
     Capture capture;
     int is_written = 0;
     if (format == MeshFormat::vtu) {
+        escape_names(*grid->GetPointData());
+        escape_names(*grid->GetCellData());
         vtkNew<vtkXMLUnstructuredGridWriter> writer;
         writer->SetFileName(path.c_str());
         writer->SetInputData(grid);

@@ -83,7 +83,7 @@ double worst_mean_ratio(const SampleBasis& basis, const Eigen::MatrixX3d& x, con
 
 }  // namespace
 
-ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
+std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
     require_assessable(mesh);
     const CurvedMesh ideal_mesh = mesh.with_coordinates(ideal);
     const MeshTopology& topology = mesh.topology();
@@ -96,6 +96,11 @@ ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, cons
             worst[i] = topology.dimension() == 2 ? worst_mean_ratio<2>(basis, x, w) : worst_mean_ratio<3>(basis, x, w);
         }
     });
+    return worst;
+}
+
+ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
+    const std::vector<double> worst = element_shapes(mesh, ideal, context);
     ShapeSummary summary{worst.empty() ? 1.0 : std::numeric_limits<double>::infinity(), worst.empty() ? 1.0 : 0.0};
     for (std::size_t i = 0; i < worst.size(); ++i) {
         summary.min = std::min(summary.min, worst[i]);

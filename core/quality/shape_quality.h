@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
 
@@ -18,5 +20,8 @@ struct ShapeSummary {
 /// Where an ideal has no volume, or a quadrilateral, hexahedron or prism is folded, it is similar to nothing: eta = 0.
 /// Throws Unsupported like assess_quality.
 ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
+
+/// The same of every element, in the order of the mesh.
+std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
 
 }  // namespace curvewright

@@ -112,8 +112,9 @@ std::filesystem::path Replay::resolve(const std::string& file) const {
 
 void Replay::perform(const Action& action, const TaskContext& context) {
     if (const auto* open = std::get_if<OpenAction>(&action)) {
-        CurvedMesh mesh = read_mesh(resolve(open->mesh), context).mesh;
-        history_.assign(1, std::move(mesh));
+        ReadResult read = read_mesh(resolve(open->mesh), context);
+        history_.assign(1, std::move(read.mesh));
+        fields_ = std::move(read.fields);
         position_ = 0;
         mesh_file_ = open->mesh;
         return;

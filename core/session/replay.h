@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/mesh/curved_mesh.h"
+#include "core/mesh/field_array.h"
 #include "core/session/action.h"
 
 namespace curvewright {
@@ -26,6 +27,8 @@ class Replay {
     const CurvedMesh& mesh() const { return history_[position_]; }
     /// As it was opened.
     const CurvedMesh& opened() const { return history_.front(); }
+    /// The arrays of the file.
+    const std::vector<FieldArray>& fields() const { return fields_; }
     /// As it was named.
     const std::string& mesh_file() const { return mesh_file_; }
 
@@ -35,6 +38,7 @@ class Replay {
 
     std::filesystem::path folder_;
     std::string mesh_file_;
+    std::vector<FieldArray> fields_;
     std::vector<CurvedMesh> history_;  ///< states, the opened one first
     std::size_t position_ = 0;
 };

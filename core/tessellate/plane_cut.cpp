@@ -199,6 +199,8 @@ const Stencil& find_stencil(ElementType type) {
 /// What the cut elements of a piece of the loop give; numbers of points are the piece's own.
 struct Section {
     std::vector<float> points, line_points;
+    std::vector<Index> point_elements;
+    std::vector<double> point_shapes;
     std::vector<Index> triangles, triangle_elements, line_offsets{0}, line_elements;
     std::vector<std::int8_t> line_facets;
 };
@@ -289,6 +291,8 @@ class ElementCutter {
     Index add_point(Section& section) {
         const Eigen::RowVector3d at = shape_.transpose() * *x_;
         for (int d = 0; d < 3; ++d) section.points.push_back(static_cast<float>(at[d]));
+        section.point_elements.push_back(element_);
+        section.point_shapes.insert(section.point_shapes.end(), shape_.data(), shape_.data() + shape_.size());
         return first_point_ + static_cast<Index>(reference_.size()) - 1;
     }
 
@@ -316,6 +320,7 @@ class ElementCutter {
 
     /// Whether the section has any area.
     bool march(Index element, Section& section) {
+        element_ = element;
         point_on_.assign(lattice_->sides.size(), -1);
         point_in_.assign(lattice_->points.size(), -1);
         reference_.clear();
@@ -362,6 +367,8 @@ class ElementCutter {
         if (section.triangles.size() == first_triangle) {
             // The plane touches a node or an edge.
             section.points.resize(3 * static_cast<std::size_t>(first_point_));
+            section.point_elements.resize(static_cast<std::size_t>(first_point_));
+            section.point_shapes.resize(section.point_shapes.size() - reference_.size() * shape_.size());
             return false;
         }
         for (std::size_t facet = 0; facet < segments_.size(); ++facet) chain(segments_[facet], facet, element, section);
@@ -426,6 +433,7 @@ class ElementCutter {
     Eigen::VectorXd distances_, at_lattice_, shape_;  ///< of the nodes; of the lattice's points; shape functions
     std::vector<Index> point_on_, point_in_;          ///< per side, per lattice point: number of the section's point
     std::vector<std::array<double, 3>> reference_;    ///< of the element's points of the section
+    Index element_ = 0;
     Index first_point_ = 0;
     std::array<std::vector<std::array<Index, 2>>, 6> segments_;  ///< per facet
 };
@@ -441,7 +449,7 @@ struct FaceLine {
 
 PlaneCut::PlaneCut(const CurvedMesh& mesh, const CuttingPlane& plane, const std::vector<bool>& visible,
                    const PlaneCutOptions& options)
-    : plane_(plane) {
+    : topology_(mesh.shared_topology()), plane_(plane) {
     const MeshTopology& topology = mesh.topology();
     const auto element_count = static_cast<std::size_t>(topology.element_count());
     if (!visible.empty() && visible.size() != element_count)
@@ -514,6 +522,8 @@ PlaneCut::PlaneCut(const CurvedMesh& mesh, const CuttingPlane& plane, const std:
         const auto first_point = static_cast<Index>(points_.size() / 3);
         const auto first_line_point = static_cast<Index>(line_points_.size() / 3);
         points_.insert(points_.end(), section.points.begin(), section.points.end());
+        point_elements_.insert(point_elements_.end(), section.point_elements.begin(), section.point_elements.end());
+        point_shapes_.insert(point_shapes_.end(), section.point_shapes.begin(), section.point_shapes.end());
         for (const Index point : section.triangles) triangles_.push_back(first_point + point);
         triangle_elements_.insert(triangle_elements_.end(), section.triangle_elements.begin(),
                                   section.triangle_elements.end());
@@ -542,6 +552,22 @@ PlaneCut::PlaneCut(const CurvedMesh& mesh, const CuttingPlane& plane, const std:
         if (lines[i].corners != lines[first].corners) first = i;
         line_is_first_[lines[i].line] = lines[i].element == lines[first].element;
     }
+}
+
+std::vector<double> PlaneCut::evaluate(const std::vector<double>& values, int components) const {
+    const auto width = static_cast<std::size_t>(std::max(components, 1));
+    if (components < 1 || values.size() != static_cast<std::size_t>(topology_->node_count()) * width)
+        throw InvalidInput(fmt::format("The mesh that is cut has {} nodes, but a field has {} values of {} components.",
+                                       topology_->node_count(), values.size(), components));
+    std::vector<double> result(point_elements_.size() * width, 0.0);
+    const double* shape = point_shapes_.data();
+    for (std::size_t point = 0; point < point_elements_.size(); ++point)
+        for (const Index node : topology_->element_nodes(point_elements_[point])) {
+            for (std::size_t c = 0; c < width; ++c)
+                result[point * width + c] += *shape * values[static_cast<std::size_t>(node) * width + c];
+            ++shape;
+        }
+    return result;
 }
 
 }  // namespace curvewright

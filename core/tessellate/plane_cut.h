@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/mesh/curved_mesh.h"
@@ -54,6 +55,10 @@ class PlaneCut {
     const std::vector<Index>& triangles() const { return triangles_; }                  ///< 3 per triangle: points
     const std::vector<Index>& triangle_elements() const { return triangle_elements_; }  ///< per triangle, ascending
 
+    /// Values at the points, by the shape functions of their elements. values: nodes × components, row-major. Throws
+    /// InvalidInput if there are not as many.
+    std::vector<double> evaluate(const std::vector<double>& values, int components) const;
+
     // The curves of the faces, of every cut element.
     const std::vector<float>& line_points() const { return line_points_; }  ///< 3 per point
     /// Polyline k is the points line_offsets()[k] .. line_offsets()[k+1] - 1.
@@ -63,10 +68,13 @@ class PlaneCut {
     const std::vector<std::uint8_t>& line_is_first() const { return line_is_first_; }
 
   private:
+    std::shared_ptr<const MeshTopology> topology_;
     CuttingPlane plane_;
     Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
     std::vector<Side> sides_;
     std::vector<float> points_, line_points_;
+    std::vector<Index> point_elements_;
+    std::vector<double> point_shapes_;  ///< per point the shape functions of its element's nodes
     std::vector<Index> triangles_, triangle_elements_, line_offsets_{0}, line_elements_;
     std::vector<std::uint8_t> line_is_first_;
 };

@@ -214,6 +214,7 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
     if (is_shrunk()) topology_ = mesh.shared_topology();
     options_.min_subdivisions = std::max(1, options_.min_subdivisions);
     options_.max_subdivisions = std::max(options_.min_subdivisions, options_.max_subdivisions);
+    options_.field_subdivisions = std::clamp(options_.field_subdivisions, 1, options_.max_subdivisions);
     const auto box = bounding_box(mesh);
     origin_ = 0.5 * (box.row(0) + box.row(1));
     diagonal_ = (box.row(1) - box.row(0)).norm();
@@ -305,9 +306,12 @@ int Tessellation::wanted_subdivisions(const Patch& patch, const Coordinates& coo
     const Eigen::MatrixXd x = gather(patches, static_cast<std::size_t>(&patch - patches.data()), 1, coordinates);
     const int needed =
         needed_subdivisions(patch.type, x, options_.chord_tolerance * diagonal_, rounding, options_.max_subdivisions);
-    if (needed == 0) return 1;
+    const bool is_linear =
+        patch.type.shape == Shape::line || (patch.type.order == 1 && patch.type.shape != Shape::quadrilateral);
+    const int for_field = is_linear ? 1 : options_.field_subdivisions;
+    if (needed == 0) return for_field;
     // Few different numbers, so that neighbours mostly have the same points on the side that they share.
-    int n = options_.min_subdivisions;
+    int n = std::max(options_.min_subdivisions, for_field);
     while (n < needed) n *= 2;
     return std::min(n, options_.max_subdivisions);
 }
@@ -363,6 +367,28 @@ void Tessellation::move(const Coordinates& coordinates) {
             fmt::format("The drawn mesh has {} nodes but {} positions were given.", node_count_, coordinates.rows()));
     move_patches(faces_, coordinates, surface_points_, &surface_normals_);
     move_patches(edges_, coordinates, edge_points_, nullptr);
+}
+
+std::vector<double> Tessellation::evaluate(const std::vector<double>& values, int components) const {
+    if (components < 1 || values.size() != static_cast<std::size_t>(node_count_) * static_cast<std::size_t>(components))
+        throw InvalidInput(fmt::format("The drawn mesh has {} nodes, but a field has {} values of {} components.",
+                                       node_count_, values.size(), components));
+    const auto width = static_cast<Eigen::Index>(components);
+    std::vector<double> result(surface_points_.size() / 3 * static_cast<std::size_t>(components));
+    using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+    const Eigen::Map<const Rows> at_nodes(values.data(), node_count_, width);
+    Eigen::Map<Rows> at_points(result.data(), static_cast<Eigen::Index>(surface_points_.size() / 3), width);
+    parallel_for(faces_.size(), 256, {}, {}, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const Patch& face = faces_[i];
+            const Eigen::MatrixXd& basis = find_stencil(face.type, face.subdivisions).basis.values;
+            Rows nodal(basis.cols(), width);
+            for (Eigen::Index k = 0; k < basis.cols(); ++k)
+                nodal.row(k) = at_nodes.row(patch_nodes_[face.first_node + k]);
+            at_points.middleRows(face.first_point, basis.rows()).noalias() = basis * nodal;
+        }
+    });
+    return result;
 }
 
 void Tessellation::move_patches(const std::vector<Patch>& patches, const Coordinates& coordinates,

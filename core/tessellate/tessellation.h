@@ -13,6 +13,9 @@ struct TessellationOptions {
     double chord_tolerance = 2e-4;
     /// Bounds of the number of chords per side of a curved element; straight elements always get 1.
     int min_subdivisions = 4, max_subdivisions = 24;
+    /// At least so many pieces per side of faces above order 1 (and of bilinear ones), straight or not: more than 1
+    /// where a field on them is to be seen.
+    int field_subdivisions = 1;
     /// Size of the elements about the mean of their corners: below 1 there are gaps between them, and in 3D all of
     /// their faces are drawn.
     double element_size = 1.0;
@@ -47,6 +50,11 @@ class Tessellation {
     }                                                                   ///< 3 per point, unit, outward in 3D
     const std::vector<Index>& triangles() const { return triangles_; }  ///< 3 per triangle: points
     const std::vector<Index>& triangle_elements() const { return triangle_elements_; }  ///< per triangle: its element
+
+    /// A field at the surface points, by the shape functions of the face that each is on. values: nodes of the mesh ×
+    /// components, row-major; returns points × components. A face with a node whose value is NaN is NaN all over.
+    /// Throws InvalidInput if the numbers do not fit.
+    std::vector<double> evaluate(const std::vector<double>& values, int components) const;
 
     // Edges: every edge of the surface once.
     const std::vector<float>& edge_points() const { return edge_points_; }  ///< 3 per point

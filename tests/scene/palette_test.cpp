@@ -3,30 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/scene/color_sight.h"
 #include "ui/palette/cielab.h"
 #include "ui/palette/quality_colors.h"
 
 namespace curvewright {
 namespace {
-
-/// What a person without green receptors sees: Viénot, Brettel, Mollon, "Digital video colourmaps for checking the
-/// legibility of displays by dichromats", Color Res. Appl. 24, 1999, in linear RGB.
-Color as_deuteranope(const Color& color) {
-    const double r = to_linear(color[0]), g = to_linear(color[1]), b = to_linear(color[2]);
-    const double yellow = 0.29275 * r + 0.70725 * g;
-    return {from_linear(yellow), from_linear(yellow), from_linear(-0.02234 * r + 0.02234 * g + b)};
-}
-
-/// The same without red receptors.
-Color as_protanope(const Color& color) {
-    const double r = to_linear(color[0]), g = to_linear(color[1]), b = to_linear(color[2]);
-    const double yellow = 0.11238 * r + 0.88762 * g;
-    return {from_linear(yellow), from_linear(yellow), from_linear(0.00401 * r - 0.00401 * g + b)};
-}
-
-Color as_is(const Color& color) {
-    return color;
-}
 
 TEST(Palette, LabOfKnownColours) {
     const Lab white = to_lab({1, 1, 1}), red = to_lab({1, 0, 0});
@@ -92,6 +74,13 @@ TEST(Palette, ValidityDecidesBeforeTheValue) {
     EXPECT_EQ(quality_color(0.7, Validity::invalid), tangled_color());
     EXPECT_EQ(quality_color(-0.1, Validity::valid), tangled_color());
     EXPECT_EQ(quality_color(0.0, Validity::undecided), undecided_color());
+    // Whatever the map and the range are.
+    const ColorScale scale{ColorMap::grey, true, 0.25, 0.75};
+    EXPECT_EQ(quality_color(0.5, Validity::valid, scale), map_color(ColorMap::grey, 0.5));
+    EXPECT_EQ(quality_color(0.9, Validity::valid, scale), map_color(ColorMap::grey, 0.0));
+    EXPECT_EQ(quality_color(0.3, Validity::invalid, scale), tangled_color());
+    EXPECT_EQ(quality_color(-0.1, Validity::valid, scale), tangled_color());
+    EXPECT_EQ(quality_color(0.3, Validity::undecided, scale), undecided_color());
     EXPECT_EQ(quality_map(-3.0), quality_map(0.0));
     EXPECT_EQ(quality_map(3.0), quality_map(1.0));
     const Color none = quality_map(std::numeric_limits<double>::quiet_NaN());

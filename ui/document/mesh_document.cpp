@@ -54,6 +54,7 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     original_ = before_ = current_ = std::move(opened_mesh.state);
     file_path_ = std::move(opened_mesh.file_path);
     notes_ = std::move(opened_mesh.notes);
+    fields_ = opened_mesh.fields ? std::move(opened_mesh.fields) : std::make_shared<const std::vector<FieldArray>>();
     deformation_.reset();
     session_.clear();
     emit opened();

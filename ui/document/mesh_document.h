@@ -11,6 +11,7 @@
 
 #include "core/deform/deformation.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/mesh/field_array.h"
 #include "core/quality/quality.h"
 #include "core/session/action.h"
 
@@ -33,6 +34,8 @@ struct OpenedMesh {
     MeshState state;
     QString file_path;
     QStringList notes;  ///< what the reader passed over or repaired
+    /// The file's arrays of numbers on nodes and elements; null = none. They go with the mesh through all of its states.
+    std::shared_ptr<const std::vector<FieldArray>> fields;
 };
 
 /// A deformation and the file that it came from.
@@ -62,6 +65,8 @@ class MeshDocument : public QObject {
     const QString& file_path() const { return file_path_; }
     QString file_name() const;
     const QStringList& notes() const { return notes_; }
+    /// The arrays of the file; never null.
+    const std::shared_ptr<const std::vector<FieldArray>>& fields() const { return fields_; }
 
     const std::optional<LoadedDeformation>& deformation() const { return deformation_; }
     /// True if the loaded deformation was already applied on the way to the present state.
@@ -111,6 +116,7 @@ class MeshDocument : public QObject {
     MeshState current_, original_, before_;
     QString file_path_;
     QStringList notes_;
+    std::shared_ptr<const std::vector<FieldArray>> fields_ = std::make_shared<const std::vector<FieldArray>>();
     std::optional<LoadedDeformation> deformation_;
     std::vector<Action> session_;
     bool is_applying_ = false;

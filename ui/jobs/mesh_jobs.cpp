@@ -111,6 +111,7 @@ bool MeshJobs::open(OpenRequest request) {
         OpenedMesh opened;
         opened.file_path = QFileInfo(request.mesh_path).absoluteFilePath();
         for (const std::string& text : read.notes) opened.notes << QString::fromStdString(text);
+        opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
         opened.state = make_state(std::move(read.mesh), context);
 
         std::optional<LoadedDeformation> loaded;
@@ -276,6 +277,7 @@ bool MeshJobs::flip() {
 bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool mark_saved) {
     if (!document_.has_mesh()) return false;
     const MeshState state = document_.state(), original = document_.original();
+    const auto fields = document_.fields();
     const QString name = QFileInfo(path).fileName();
     return runner_.start(tr("Writing %1").arg(name), [=, this](const TaskContext& context) {
         context.report("writing", 0.0);
@@ -283,10 +285,13 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
         options.format = format;
         options.quality = state.quality.get();
         options.reference = &original.mesh->coordinates();
-        write_mesh(to_path(path), *state.mesh, options);
+        options.fields = fields.get();
+        QString told = tr("Wrote %1.").arg(path);
+        for (const std::string& text : write_mesh(to_path(path), *state.mesh, options))
+            told += QLatin1Char(' ') + QString::fromStdString(text);
         return [=, this] {
             if (mark_saved) document_.mark_saved(QFileInfo(path).absoluteFilePath());
-            emit note(tr("Wrote %1.").arg(path));
+            emit note(told);
         };
     });
 }

@@ -64,6 +64,7 @@ const Command command_list[] = {
     {CommandId::node_numbers, CommandMenu::view, "node_numbers", TEXT("N&ode numbers"), TEXT("Write the tags of the nodes beside them"), "node_numbers", "Ctrl+Shift+N", true, true},
     {CommandId::element_numbers, CommandMenu::view, "element_numbers", TEXT("Element n&umbers"), TEXT("Write the tags of the elements on them"), "element_numbers", "Ctrl+Shift+M", true},
     {CommandId::orthographic, CommandMenu::view, "orthographic", TEXT("Ortho&graphic"), TEXT("Show solid meshes without perspective (3D)"), "orthographic", "5", true},
+    {CommandId::colors, CommandMenu::view, "colors", TEXT("&Colours"), TEXT("Choose what the colours show, their map and their range"), "", "K", true},
     {CommandId::theme_system, CommandMenu::theme, "theme_system", TEXT("Follow the &system"), TEXT("Light or dark, as the system is"), "", "", true},
     {CommandId::theme_light, CommandMenu::theme, "theme_light", TEXT("&Light"), TEXT("Dark text on light ground"), "", "", true},
     {CommandId::theme_dark, CommandMenu::theme, "theme_dark", TEXT("&Dark"), TEXT("Light text on dark ground"), "", "", true},

@@ -58,6 +58,7 @@ enum class CommandId {
     edges,
     nodes,
     legend,
+    colors,
     clip,
     shrink,
     worst_only,

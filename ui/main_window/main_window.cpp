@@ -77,6 +77,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_document();
     connect_panels();
     connect_editing();
+    connect_colors();
     connect_session();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
@@ -254,7 +255,7 @@ void MainWindow::update_commands() {
                                CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
-                               CommandId::legend, CommandId::shrink, CommandId::compare})
+                               CommandId::legend, CommandId::colors, CommandId::shrink, CommandId::compare})
         actions_[id]->setEnabled(has_mesh);
     for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers}) actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
@@ -326,7 +327,7 @@ void MainWindow::update_options() {
     before_options.show_legend = false;
     before_view_->set_options(before_options);
     clip_bar_->setVisible(is_clipped);
-    place_clip_bar();
+    place_bars();
 }
 
 void MainWindow::select_elements(const std::vector<Index>& elements, bool fly) {
@@ -387,16 +388,8 @@ void MainWindow::show_tab(const QString& name) {
 }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == view_ && event->type() == QEvent::Resize) place_clip_bar();
+    if (watched == view_ && event->type() == QEvent::Resize) place_bars();
     return QMainWindow::eventFilter(watched, event);
-}
-
-void MainWindow::place_clip_bar() {
-    constexpr int margin = 12, room_for_slider = 80;
-    const QSize least = clip_bar_->minimumSizeHint();
-    clip_bar_->resize(std::clamp(view_->width() - 2 * margin, least.width(), least.width() + room_for_slider),
-                      least.height());
-    clip_bar_->move(margin, margin);
 }
 
 }  // namespace curvewright

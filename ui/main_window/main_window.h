@@ -11,6 +11,7 @@
 #include "ui/document/mesh_document.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
+#include "ui/jobs/element_numbers.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
 #include "ui/main_window/commands.h"
@@ -28,6 +29,7 @@ namespace curvewright {
 
 class Banner;
 class ClipBar;
+class ColorBar;
 class DeformPanel;
 class EditPanel;
 class MeshPanel;
@@ -101,7 +103,6 @@ class MainWindow : public QMainWindow {
     /// Moves the clip plane, or takes it away, if it keeps the element out of sight.
     void uncover(Index element);
     void tell_element(std::optional<Index> element);
-    void place_clip_bar();
 
     // main_window_editing.cpp
     void build_tools();
@@ -118,6 +119,16 @@ class MainWindow : public QMainWindow {
     void show_verdict(const QualitySummary& summary);
     /// The view of the state before the last step, if it is wanted.
     void show_before();
+
+    // main_window_colors.cpp
+    void connect_colors();
+    /// The user has chosen other colours.
+    void update_coloring();
+    /// The mesh is in another state.
+    void follow_coloring();
+    void show_coloring();
+    /// The bars over the view, below each other.
+    void place_bars();
 
     // main_window_session.cpp
     void connect_session();
@@ -142,6 +153,7 @@ class MainWindow : public QMainWindow {
     MeshJobs jobs_;
     EditState edit_;
     LiveDrag drag_;
+    ElementNumbers element_numbers_;
     RecentFiles recent_;
     SampleCatalog samples_;
     std::unique_ptr<Journal> journal_;
@@ -154,6 +166,7 @@ class MainWindow : public QMainWindow {
     MeshView* view_ = nullptr;
     MeshView* before_view_ = nullptr;  ///< beside view_, if the user wants to compare
     ClipBar* clip_bar_ = nullptr;
+    ColorBar* color_bar_ = nullptr;
     PointerTag* pointer_tag_ = nullptr;
     std::map<CommandId, Tool*> tools_;
     EditPanel* edit_panel_ = nullptr;
@@ -168,6 +181,9 @@ class MainWindow : public QMainWindow {
     QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr;
+
+    /// What the colours show of the elements, if it is computed; null = not yet.
+    std::shared_ptr<const FieldArray> numbers_now_, numbers_before_;
 
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name

@@ -167,6 +167,7 @@ void MainWindow::show_before() {
     const bool is_wanted = actions_[CommandId::compare]->isChecked() && document_.has_mesh();
     before_view_->setVisible(is_wanted);
     for (QLabel* name : view_page_->findChildren<QLabel*>(QStringLiteral("view_name"))) name->setVisible(is_wanted);
+    place_bars();
     if (!is_wanted) {
         before_view_->show_state({});
         return;

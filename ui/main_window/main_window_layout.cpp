@@ -21,6 +21,7 @@
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/banner.h"
 #include "ui/panels/clip_bar.h"
+#include "ui/panels/color_bar.h"
 #include "ui/panels/edit_panel.h"
 #include "ui/panels/job_bar.h"
 #include "ui/panels/mesh_panel.h"
@@ -149,6 +150,8 @@ void MainWindow::build_center() {
     }
     clip_bar_ = new ClipBar(theme_, view_);
     clip_bar_->hide();
+    color_bar_ = new ColorBar(document_, theme_, view_);
+    color_bar_->hide();
     view_->installEventFilter(this);
 
     center_ = new QStackedWidget;

@@ -176,6 +176,15 @@ const SceneOptions& MeshView::options() const {
     return parts_->options;
 }
 
+void MeshView::set_coloring(const Coloring& coloring) {
+    parts_->scene.set_coloring(coloring);
+    request_frame();
+}
+
+const ColorScale& MeshView::shown_scale() const {
+    return parts_->scene.shown_scale();
+}
+
 void MeshView::scale_to_device() {
     parts_->options.pixel_ratio = devicePixelRatioF();
     parts_->scene.set_options(parts_->options);
@@ -476,7 +485,12 @@ void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModif
 void MeshView::mousePressEvent(QMouseEvent* event) {
     Parts& parts = *parts_;
     parts.flight.stop();
-    if (parts.tool_has_mouse) return;
+    if (parts.tool_has_mouse || parts.legend_has_mouse) return;
+    const auto at = to_device(event->position());
+    if (event->button() == Qt::LeftButton && parts.scene.is_on_legend(at[0], at[1])) {
+        parts.legend_has_mouse = true;
+        return;
+    }
     parts.may_be_click = event->button() == Qt::LeftButton;
     parts.press_position = event->position();
     if (event->button() == Qt::LeftButton && parts.tool && parts.state.mesh &&
@@ -498,6 +512,7 @@ void MeshView::hover(QPointF position, Qt::KeyboardModifiers modifiers) {
 void MeshView::mouseMoveEvent(QMouseEvent* event) {
     Parts& parts = *parts_;
     emit pointer_moved(event->position());
+    if (parts.legend_has_mouse) return;
     if (parts.tool_has_mouse) {
         parts.tool->move({event->position(), event->modifiers(), Qt::LeftButton});
         return;
@@ -509,6 +524,13 @@ void MeshView::mouseMoveEvent(QMouseEvent* event) {
 
 void MeshView::mouseReleaseEvent(QMouseEvent* event) {
     Parts& parts = *parts_;
+    if (parts.legend_has_mouse) {
+        if (event->button() != Qt::LeftButton) return;
+        parts.legend_has_mouse = false;
+        const auto at = to_device(event->position());
+        if (parts.scene.is_on_legend(at[0], at[1])) emit legend_clicked();
+        return;
+    }
     if (parts.tool_has_mouse) {
         if (event->button() != Qt::LeftButton) return;
         parts.tool_has_mouse = false;

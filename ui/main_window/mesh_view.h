@@ -41,6 +41,10 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// The options to draw with; the pixel ratio is the view's own.
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
+    /// What the colours show.
+    void set_coloring(const Coloring& coloring);
+    /// The map with the range that is shown now.
+    const ColorScale& shown_scale() const;
 
     void set_drawing_mode(DrawingMode mode);
     /// Whether a frame is asked for that is not seen yet.
@@ -87,6 +91,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void frame_drawn();
     /// An element was clicked (none: the background).
     void element_clicked(std::optional<Index> element);
+    void legend_clicked();
 
   protected:
     void initializeGL() override;

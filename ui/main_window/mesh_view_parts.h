@@ -92,6 +92,7 @@ struct MeshView::Parts {
     bool is_stale = true;
     FrameBehind behind;
     bool may_be_click = false;
+    bool legend_has_mouse = false;  ///< between a press on the legend and its release
     QPointer<Tool> tool;
     bool tool_has_mouse = false;  ///< between a press that the tool took and its release
 };

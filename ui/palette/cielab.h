@@ -1,6 +1,6 @@
 #pragma once
 
-#include "ui/palette/quality_colors.h"
+#include "ui/palette/color_map.h"
 
 namespace curvewright {
 

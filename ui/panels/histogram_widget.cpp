@@ -86,6 +86,12 @@ void HistogramWidget::set_scale(Index limit, bool is_logarithmic) {
     update();
 }
 
+void HistogramWidget::set_colors(const ColorScale& colors) {
+    if (colors == colors_) return;
+    colors_ = colors;
+    update();
+}
+
 QRectF HistogramWidget::plot() const {
     return QRectF(rect()).adjusted(left_margin, top_margin, -right_margin, -bottom_margin);
 }
@@ -134,7 +140,7 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
         QRectF box = bar_area(index).adjusted(0.5, 0, -0.5, 0);
         const double height = std::max(2.0, height_of(content.count()) * area.height());
         box.setTop(area.bottom() - height);
-        const Color color = index < 0 ? tangled_color() : quality_map((index + 0.5) / HistogramBars::bins);
+        const Color color = index < 0 ? tangled_color() : colors_.color_of((index + 0.5) / HistogramBars::bins);
         painter.fillRect(box, to_qcolor(color));
         if (!content.undecided.empty()) {
             QRectF part = box;

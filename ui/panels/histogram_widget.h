@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include "core/quality/quality.h"
+#include "ui/palette/color_map.h"
 #include "ui/panels/theme.h"
 
 namespace curvewright {
@@ -39,6 +40,8 @@ class HistogramWidget : public QWidget {
     /// Count at the top of the scale, and whether counts are drawn logarithmically.
     void set_scale(Index limit, bool is_logarithmic);
     Index limit() const { return limit_; }
+    /// Map and range of the bars' colours.
+    void set_colors(const ColorScale& colors);
 
     QSize sizeHint() const override { return {280, 104}; }
     QSize minimumSizeHint() const override { return {180, 80}; }
@@ -65,6 +68,7 @@ class HistogramWidget : public QWidget {
     const Theme& theme_;
     std::shared_ptr<const QualityReport> report_;
     HistogramBars bars_;
+    ColorScale colors_;
     Index limit_ = 1;
     bool is_logarithmic_ = true;
     int hovered_ = -2;

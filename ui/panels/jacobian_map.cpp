@@ -31,6 +31,12 @@ void JacobianMap::clear() {
     setVisible(false);
 }
 
+void JacobianMap::set_scale(const ColorScale& scale) {
+    if (scale == scale_) return;
+    scale_ = scale;
+    update();
+}
+
 void JacobianMap::show_element(const CurvedMesh& mesh, Index element, const QualityReport& report) {
     const ElementType type = mesh.topology().element_type(element);
     const ElementQuality& quality = report.elements[static_cast<std::size_t>(element)];
@@ -116,7 +122,7 @@ void JacobianMap::paintEvent(QPaintEvent*) {
     to_widget.scale(scale, -scale);
     to_widget.translate(-box.center().x(), -box.center().y());
     for (const Piece& piece : pieces_) {
-        const Color color = piece.value > 0.0 ? quality_map(piece.value) : tangled_color();
+        const Color color = piece.value > 0.0 ? scale_.color_of(piece.value) : tangled_color();
         painter.setBrush(to_qcolor(color));
         // In its own colour: no seams between the pieces.
         painter.setPen(QPen(to_qcolor(color), 0.7));

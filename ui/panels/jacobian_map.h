@@ -8,6 +8,7 @@
 
 #include "core/mesh/curved_mesh.h"
 #include "core/quality/quality.h"
+#include "ui/palette/color_map.h"
 #include "ui/panels/theme.h"
 
 namespace curvewright {
@@ -21,6 +22,8 @@ class JacobianMap : public QWidget {
     explicit JacobianMap(const Theme& theme, QWidget* parent = nullptr);
 
     void clear();
+    /// Map and range of the colours.
+    void set_scale(const ColorScale& scale);
     void show_element(const CurvedMesh& mesh, Index element, const QualityReport& report);
 
     QSize sizeHint() const override { return {240, 128}; }
@@ -34,6 +37,7 @@ class JacobianMap : public QWidget {
 
   private:
     const Theme& theme_;
+    ColorScale scale_;
     struct Piece {
         QPolygonF corners;  ///< y up, any unit
         double value = 0.0;

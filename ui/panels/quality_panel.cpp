@@ -119,6 +119,10 @@ void QualityPanel::show_live(const QualityReport& report) {
     next_live_ = end + 4 * (end - start);
 }
 
+void QualityPanel::set_scale(const ColorScale& scale) {
+    for (const Side& side : {before_, after_}) side.histogram->set_colors(scale);
+}
+
 void QualityPanel::refresh() {
     const bool from_opened = reference_->currentIndex() == 1;
     show_figures(before_, from_opened ? document_.original() : document_.before());

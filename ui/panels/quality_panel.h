@@ -6,6 +6,7 @@
 #include <QWidget>
 
 #include "ui/document/mesh_document.h"
+#include "ui/palette/color_map.h"
 #include "ui/panels/theme.h"
 
 class QCheckBox;
@@ -26,6 +27,8 @@ class QualityPanel : public QWidget {
     /// "Now" shows this report of the document's mesh while it is being moved; show_state() ends that.
     void show_live(const QualityReport& report);
     void show_state() { refresh(); }
+    /// Map and range of the colours of both histograms.
+    void set_scale(const ColorScale& scale);
 
   signals:
     /// Elements of the present mesh that the user picked in a histogram.

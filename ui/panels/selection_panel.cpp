@@ -151,6 +151,10 @@ void SelectionPanel::make_selecting() {
     connect(clear_, &QToolButton::clicked, &edit_, [this] { edit_.select({}, {}); });
 }
 
+void SelectionPanel::set_scale(const ColorScale& scale) {
+    map_->set_scale(scale);
+}
+
 void SelectionPanel::show_settings() {
     is_showing_ = true;
     const SelectSettings& settings = edit_.settings().select;

@@ -4,6 +4,7 @@
 
 #include "core/warp/warp.h"
 #include "ui/document/edit_state.h"
+#include "ui/palette/color_map.h"
 #include "ui/panels/theme.h"
 
 class QComboBox;
@@ -26,6 +27,8 @@ class SelectionPanel : public QWidget {
 
     /// The options of a warp: whose weights a node's spokes show.
     void set_weights(const WarpOptions& options);
+    /// Map and range of the colours of J inside an element.
+    void set_scale(const ColorScale& scale);
 
     /// Longer lists are cut, with a line that says so.
     static constexpr int max_rows = 300;

@@ -14,8 +14,8 @@ namespace curvewright {
 namespace {
 
 /// A swatch in the element's colour; a cross or a question mark says in shape what the colour says.
-QIcon swatch(const ElementQuality& quality, const QColor& outline) {
-    const Color color = quality_color(quality.scaled_jacobian, quality.validity);
+QIcon swatch(const ElementQuality& quality, const ColorScale& scale, const QColor& outline) {
+    const Color color = quality_color(quality.scaled_jacobian, quality.validity, scale);
     QPixmap pixmap(16, 16);
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
@@ -77,6 +77,12 @@ WorstTable::WorstTable(MeshDocument& document, const Theme& theme, QWidget* pare
     refresh();
 }
 
+void WorstTable::set_scale(const ColorScale& scale) {
+    if (scale == scale_) return;
+    scale_ = scale;
+    refresh();
+}
+
 void WorstTable::refresh() {
     table_->clear();
     elements_.clear();
@@ -86,7 +92,7 @@ void WorstTable::refresh() {
     for (const Index element : elements_) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(element)];
         auto* item = new QTreeWidgetItem(table_);
-        item->setIcon(0, swatch(quality, theme_.color(QStringLiteral("border_strong"))));
+        item->setIcon(0, swatch(quality, scale_, theme_.color(QStringLiteral("border_strong"))));
         item->setText(0, QString::number(state.mesh->topology().element_tag(element).value));
         item->setText(1, format_number(quality.scaled_jacobian));
         item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);

@@ -5,6 +5,7 @@
 #include <QWidget>
 
 #include "ui/document/mesh_document.h"
+#include "ui/palette/color_map.h"
 #include "ui/panels/theme.h"
 
 class QLabel;
@@ -20,6 +21,8 @@ class WorstTable : public QWidget {
     WorstTable(MeshDocument& document, const Theme& theme, QWidget* parent = nullptr);
 
     static constexpr int max_rows = 10;
+    /// Map and range of the scaled Jacobian's colours.
+    void set_scale(const ColorScale& scale);
 
   signals:
     void element_chosen(Index element);
@@ -29,6 +32,7 @@ class WorstTable : public QWidget {
 
     MeshDocument& document_;
     const Theme& theme_;
+    ColorScale scale_;
     QTreeWidget* table_ = nullptr;
     std::vector<Index> elements_;
 };

@@ -13,12 +13,31 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "ui/palette/quality_colors.h"
+#include "ui/scene/legend_ticks.h"
+
 namespace curvewright {
 namespace {
 
 // All lengths in units of the pixel ratio.
 constexpr double column_width = 98.0, right_pad = 12.0, bar_width = 14.0, label_gap = 7.0, text_size = 12.0;
 constexpr double title_height = 40.0, swatch_height = 14.0, swatch_gap = 8.0, min_height_below = 16.0;
+
+/// A line that fits the column: at most so many letters (not bytes: the text is UTF-8).
+std::string shortened(const std::string& text) {
+    constexpr std::size_t most = 16;
+    std::size_t letters = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if ((static_cast<unsigned char>(text[i]) & 0xC0) == 0x80) continue;
+        if (++letters == most) {
+            // The last letter stays if the text ends with it.
+            std::size_t end = i + 1;
+            while (end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) ++end;
+            return end == text.size() ? text : text.substr(0, i) + "\u2026";
+        }
+    }
+    return text;
+}
 
 Color mix(const Color& a, const Color& b, double share_of_b) {
     Color result{};
@@ -46,8 +65,16 @@ void Legend::set_colors(const Color& background, const Color& foreground) {
     foreground_ = foreground;
 }
 
+bool Legend::is_drawn() const {
+    return is_visible_ && (content_.has_bar || is_tangled()) && !(content_.is_quality && !summary_);
+}
+
 double Legend::width(double pixel_ratio) const {
-    return is_visible_ && summary_ ? (column_width + right_pad + label_gap) * pixel_ratio : 0.0;
+    return is_drawn() ? (column_width + right_pad + label_gap) * pixel_ratio : 0.0;
+}
+
+bool Legend::contains(double x, double y) const {
+    return x >= panel_.left && x < panel_.right && y >= panel_.bottom && y < panel_.top;
 }
 
 void Legend::begin() {
@@ -128,65 +155,91 @@ void Legend::draw_marker(double left, double height, double ratio) {
                      foreground_, TextAnchor::left, true);
 }
 
+void Legend::draw_ticks(const Box& bar, double line, std::optional<double> taken, double ratio) {
+    const ColorScale& scale = content_.scale;
+    const double height = bar.top - bar.bottom;
+    double last = -1e9;
+    for (const Tick& tick : legend_ticks(scale.lower, scale.upper)) {
+        const double y = std::round(bar.bottom + scale.position(tick.value) * (height - line));
+        if (taken && std::abs(y - *taken) < 14.0 * ratio) continue;
+        if (y - last < 14.0 * ratio) continue;
+        last = y;
+        add_box({bar.right, y, bar.right + std::round(3.0 * ratio), y + line}, mix(background_, foreground_, 0.55));
+        next_text().show(tick.label, bar.right + label_gap * ratio, y, text_size * ratio, foreground_);
+    }
+}
+
 void Legend::update(const ViewMetrics& view) {
     begin();
-    if (!is_visible_ || !summary_ || summary_->elements() == 0) return finish();
+    panel_ = {0, 0, 0, 0};
+    if (!is_drawn() || (content_.is_quality && summary_->elements() == 0)) return finish();
     const double ratio = view.pixel_ratio, line = std::max(1.0, std::round(ratio));
-    const bool has_undecided = summary_->undecided > 0;
-    const bool is_zero_shown = summary_->min <= 0.0 || summary_->invalid > 0;
+    const bool is_quality = content_.is_quality, has_bar = content_.has_bar;
+    const bool has_alarm = is_quality || is_tangled();
+    const bool has_undecided = is_quality && summary_->undecided > 0;
+    // Below the bar where it is not on it.
+    const bool is_minimum_below =
+        is_quality && (is_tangled() || summary_->min < content_.scale.lower || summary_->min > content_.scale.upper);
+    const int swatches = (has_alarm ? 1 : 0) + (has_undecided ? 1 : 0) + (content_.has_missing ? 1 : 0);
     const double below =
-        ((swatch_gap + swatch_height) * (has_undecided ? 2.0 : 1.0) + (is_zero_shown ? min_height_below : 0.0)) * ratio;
+        ((swatch_gap + swatch_height) * swatches + (is_minimum_below ? min_height_below : 0.0)) * ratio;
+    const double above = has_bar ? title_height * ratio : 0.0;
     const double free = view.size[1] - (title_height + 24.0) * ratio - below;
     if (free < 40.0 * ratio || view.size[0] < 240.0 * ratio) return finish();
-    const double bar_height = std::round(std::min({free, 0.52 * view.size[1], 320.0 * ratio}));
-    const double total = title_height * ratio + bar_height + below;
+    const double bar_height = has_bar ? std::round(std::min({free, 0.52 * view.size[1], 320.0 * ratio})) : 0.0;
+    const double total = above + bar_height + below;
     const double left = std::round(view.size[0] - (column_width + right_pad) * ratio);
     const double top = std::round(0.5 * (view.size[1] + total));
-    const double bar_top = std::round(top - title_height * ratio), bar_bottom = bar_top - bar_height;
+    const double bar_top = std::round(top - above), bar_bottom = bar_top - bar_height;
     const Box bar{left, bar_bottom, left + std::round(bar_width * ratio), bar_top};
 
     const double pad = 8.0 * ratio;
-    add_box({left - pad, bar_bottom - below - pad, static_cast<double>(view.size[0]), top + pad}, background_, 0.8);
+    panel_ = {left - pad, bar_bottom - below - pad, static_cast<double>(view.size[0]), top + pad};
+    add_box(panel_, background_, 0.8);
     const Color dim = mix(background_, foreground_, 0.72);
-    next_text().show("Scaled Jacobian", left, top - 7.0 * ratio, text_size * ratio, foreground_, TextAnchor::left,
-                     true);
-    next_text().show("min J / max J", left, top - 22.0 * ratio, 0.92 * text_size * ratio, dim);
-
-    constexpr int bands = 128;
-    for (int i = 0; i < bands; ++i)
-        add_box({bar.left, bar.bottom + bar_height * i / bands, bar.right, bar.bottom + bar_height * (i + 1) / bands},
-                quality_map((i + 0.5) / bands));
-    add_frame(bar, line);
-    const double min_height = bar.bottom + std::clamp(summary_->min, 0.0, 1.0) * (bar_height - line) + 0.5 * line;
-    if (!is_zero_shown) draw_marker(bar.right + 2.0 * ratio, min_height, ratio);
-    for (const auto& [value, label] : {std::pair(0.0, "0"), {0.25, "0.25"}, {0.5, "0.5"}, {0.75, "0.75"}, {1.0, "1"}}) {
-        const double y = std::round(bar.bottom + value * (bar_height - line));
-        if (!is_zero_shown && std::abs(y - min_height) < 14.0 * ratio) continue;
-        add_box({bar.right, y, bar.right + std::round(3.0 * ratio), y + line}, mix(background_, foreground_, 0.55));
-        next_text().show(label, bar.right + label_gap * ratio, y, text_size * ratio, foreground_);
+    if (has_bar) {
+        const bool is_named = !content_.title.empty();
+        next_text().show(is_named ? shortened(content_.title) : "Scaled Jacobian", left, top - 7.0 * ratio,
+                         text_size * ratio, foreground_, TextAnchor::left, true);
+        next_text().show(is_named ? shortened(content_.detail) : "min J / max J", left, top - 22.0 * ratio,
+                         0.92 * text_size * ratio, dim);
+        constexpr int bands = 128;
+        const double extent = content_.scale.upper - content_.scale.lower;
+        for (int i = 0; i < bands; ++i)
+            add_box(
+                {bar.left, bar.bottom + bar_height * i / bands, bar.right, bar.bottom + bar_height * (i + 1) / bands},
+                content_.scale.color_of(content_.scale.lower + extent * ((i + 0.5) / bands)));
+        add_frame(bar, line);
+        std::optional<double> minimum;
+        if (is_quality) {
+            const double position = std::clamp(content_.scale.position(summary_->min), 0.0, 1.0);
+            if (!is_minimum_below) minimum = bar.bottom + position * (bar_height - line) + 0.5 * line;
+        }
+        if (minimum) draw_marker(bar.right + 2.0 * ratio, *minimum, ratio);
+        draw_ticks(bar, line, minimum, ratio);
     }
 
-    double swatch_top = std::round(bar.bottom - swatch_gap * ratio);
-    const double height = std::round(swatch_height * ratio);
-    const Box alarm{bar.left, swatch_top - height, bar.right, swatch_top};
-    add_box(alarm, tangled_color());
-    add_hatch(alarm, ratio);
-    const double text_x = bar.right + label_gap * ratio;
-    next_text().show("\u2264 0 tangled", text_x, 0.5 * (alarm.top + alarm.bottom), text_size * ratio,
-                     is_zero_shown ? foreground_ : dim);
-    swatch_top = alarm.bottom;
-    if (is_zero_shown) {
+    double swatch_top = bar.bottom;
+    const double height = std::round(swatch_height * ratio), text_x = bar.right + label_gap * ratio;
+    const auto next_swatch = [&](const char* text, const Color& color, const Color& text_color) {
+        swatch_top = std::round(swatch_top - swatch_gap * ratio);
+        const Box box{bar.left, swatch_top - height, bar.right, swatch_top};
+        add_box(box, color);
+        next_text().show(text, text_x, 0.5 * (box.top + box.bottom), text_size * ratio, text_color);
+        swatch_top = box.bottom;
+        return box;
+    };
+    if (has_alarm)
+        add_hatch(
+            next_swatch(is_quality ? "\u2264 0 tangled" : "tangled", tangled_color(), is_tangled() ? foreground_ : dim),
+            ratio);
+    if (is_minimum_below) {
         swatch_top -= std::round(min_height_below * ratio);
         next_text().show("min " + format_value(summary_->min), text_x, swatch_top + 4.0 * ratio, text_size * ratio,
                          foreground_, TextAnchor::left, true);
     }
-    if (has_undecided) {
-        swatch_top = std::round(swatch_top - swatch_gap * ratio);
-        const Box swatch{bar.left, swatch_top - height, bar.right, swatch_top};
-        add_box(swatch, undecided_color());
-        add_dots(swatch, ratio);
-        next_text().show("undecided", text_x, 0.5 * (swatch.top + swatch.bottom), text_size * ratio, foreground_);
-    }
+    if (has_undecided) add_dots(next_swatch("undecided", undecided_color(), foreground_), ratio);
+    if (content_.has_missing) add_frame(next_swatch("no value", no_value_color(), foreground_), line);
     finish();
 }
 

@@ -30,8 +30,6 @@
 namespace curvewright {
 namespace {
 
-constexpr Color neutral_color{0.80, 0.84, 0.88};
-
 /// The lines of a tessellation that are (or are not) on the boundary of a flat mesh.
 Polylines select_lines(const Tessellation& tessellation, const std::vector<float>& spacing, bool on_boundary) {
     Polylines lines;
@@ -59,13 +57,18 @@ std::vector<float> select_points(const Tessellation& tessellation, bool on_bound
 }
 
 /// Where elements are many they are small on the screen, and the chord tolerance alone is enough: pieces are what a
-/// frame costs. Few elements are cut finer, so that they stay smooth when one comes close.
-TessellationOptions tessellation_options(const MeshTopology& topology, double element_size) {
+/// frame costs. Few elements are cut finer, so that they stay smooth when one comes close. has_field: numbers on nodes
+/// are to be seen.
+TessellationOptions tessellation_options(const MeshTopology& topology, double element_size, bool has_field) {
     TessellationOptions options;
     options.element_size = element_size;
     const std::size_t faces = topology.dimension() == 3 ? topology.boundary_facets().size()
                                                         : static_cast<std::size_t>(topology.element_count());
     options.min_subdivisions = faces <= 8000 ? 4 : faces <= 40000 ? 2 : 1;
+    if (has_field) {
+        const int whole = 2 * topology.order();
+        options.field_subdivisions = std::max(2, faces <= 2000 ? whole : faces <= 8000 ? (whole + 1) / 2 : 2);
+    }
     return options;
 }
 
@@ -115,6 +118,7 @@ struct MeshScene::Parts {
 
     CameraControl camera{renderer};
     SurfaceActor surface, section_surface;
+    SurfacePainter painter;
     StrokeActor edges, boundary, section_edges;
     TangledMarks marks{add_base_actors()};
     NodeActors nodes;
@@ -155,10 +159,17 @@ struct MeshScene::Parts {
 
     bool is_flat() const { return !mesh || mesh->topology().dimension() < 3; }
 
-    Color color_of(Index element) const {
-        if (!quality) return neutral_color;
-        const ElementQuality& its = quality->elements[element];
-        return quality_color(its.scaled_jacobian, its.validity);
+    void paint() {
+        painter.paint(surface, *tessellation, *mesh, quality ? &*quality : nullptr);
+        if (section) painter.paint_section(section_surface, *section);
+        update_legend();
+    }
+
+    void update_legend() {
+        const Coloring& coloring = painter.coloring();
+        const bool has_bar = painter.has_values() && coloring.source != Coloring::Source::plain;
+        legend.set_content({coloring.title, coloring.detail, painter.scale(),
+                            coloring.source == Coloring::Source::scaled_jacobian, has_bar, painter.has_missing()});
     }
 
     void apply_options() {
@@ -202,11 +213,12 @@ struct MeshScene::Parts {
         if (moves)
             tessellation->move(mesh->coordinates());
         else
-            tessellation = std::make_unique<Tessellation>(*mesh, visible,
-                                                          tessellation_options(mesh->topology(), options.element_size));
+            tessellation = std::make_unique<Tessellation>(
+                *mesh, visible, tessellation_options(mesh->topology(), options.element_size, painter.is_on_nodes()));
         surface.set_lit(!is_flat());
         surface.set_surface(*tessellation, !moves);
-        surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
+        section.reset();  // of another state; draw_cut() makes it anew
+        paint();
         frame.place(surface.actor(), tessellation->origin());
         const std::vector<float> spacing = line_spacing(*mesh, *tessellation);
         typical_spacing = median(spacing) / frame.size;
@@ -238,7 +250,8 @@ struct MeshScene::Parts {
 
     void find_section(const CuttingPlane& plane) {
         PlaneCutOptions its;
-        const TessellationOptions drawn = tessellation_options(mesh->topology(), options.element_size);
+        const TessellationOptions drawn =
+            tessellation_options(mesh->topology(), options.element_size, painter.is_on_nodes());
         its.min_subdivisions = std::max(2, drawn.min_subdivisions);
         its.element_size = options.element_size;
         section = std::make_unique<PlaneCut>(*mesh, plane, visible, its);
@@ -260,8 +273,7 @@ struct MeshScene::Parts {
             return;
         }
         section_surface.set_lit(true);
-        section_surface.set_section(
-            *section, [](Index) { return true; }, [this](Index element) { return color_of(element); });
+        painter.paint_section(section_surface, *section);
         frame.place(section_surface.actor(), section->origin());
         Polylines lines;
         std::vector<Index> elements;
@@ -313,7 +325,8 @@ struct MeshScene::Parts {
             typical_spacing * view().pixels_per_unit(camera.distance()) < seen_spacing * options.pixel_ratio;
         edges.actor()->SetVisibility(options.show_edges && !are_too_many);
         if (has_moved) surface.set_surface(*tessellation, false);
-        if (has_new_quality) surface.set_colors(*tessellation, [this](Index element) { return color_of(element); });
+        const bool is_quality = painter.coloring().source == Coloring::Source::scaled_jacobian;
+        if ((has_moved && painter.follows_motion()) || (has_new_quality && is_quality)) paint();
         if (has_moved && !are_too_many) edges.move_lines(select_points(*tessellation, false));
         if (has_moved) boundary.move_lines(select_points(*tessellation, true));
         if (has_moved && options.show_nodes) nodes.set_nodes(*mesh, *tessellation, frame);
@@ -376,6 +389,7 @@ struct MeshScene::Parts {
     void clear() {
         tessellation.reset();
         section.reset();
+        legend.set_content({});
         visible.clear();
         for (SurfaceActor* its : {&surface, &section_surface}) its->clear();
         for (StrokeActor* stroke : {&edges, &boundary, &section_edges, &highlight_halo, &highlight}) stroke->clear();
@@ -487,6 +501,30 @@ void MeshScene::set_options(const SceneOptions& options) {
             parts.set_numbers();
         parts.apply_options();
     }
+}
+
+void MeshScene::set_coloring(const Coloring& coloring) {
+    Parts& parts = *parts_;
+    const bool was_on_nodes = parts.painter.is_on_nodes();
+    parts.painter.set_coloring(coloring);
+    if (!parts.mesh) return;
+    // Numbers on nodes need finer pieces.
+    if (parts.painter.is_on_nodes() != was_on_nodes)
+        parts.draw_mesh(false);
+    else
+        parts.paint();
+}
+
+const Coloring& MeshScene::coloring() const {
+    return parts_->painter.coloring();
+}
+
+const ColorScale& MeshScene::shown_scale() const {
+    return parts_->painter.scale();
+}
+
+bool MeshScene::is_on_legend(double x, double y) const {
+    return parts_->mesh && parts_->legend.contains(x, y);
 }
 
 const SceneOptions& MeshScene::options() const {

@@ -11,6 +11,7 @@
 #include "core/quality/quality.h"
 #include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
+#include "ui/scene/coloring.h"
 
 class vtkRenderer;
 class vtkRenderWindowInteractor;
@@ -48,8 +49,9 @@ struct SceneOptions {
 
 enum class ViewDirection { fit, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, isometric };
 
-/// Draws one mesh state into one renderer: surface coloured by scaled Jacobian, curved element edges, nodes, tangled
-/// elements that stand out, legend, axes. VTK only; it does not render by itself and knows nothing of windows.
+/// Draws one mesh state into one renderer: surface coloured by scaled Jacobian or what set_coloring says, curved
+/// element edges, nodes, tangled elements that stand out, legend, axes. VTK only; it does not render by itself and
+/// knows nothing of windows.
 class MeshScene {
   public:
     MeshScene();
@@ -68,6 +70,14 @@ class MeshScene {
     void show_frame(const Coordinates& positions, const QualityReport* quality);
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
+
+    /// What the colours say from now on, of other meshes too.
+    void set_coloring(const Coloring& coloring);
+    const Coloring& coloring() const;
+    /// The map with the range that is shown now.
+    const ColorScale& shown_scale() const;
+    /// Whether a display position (device pixels, origin bottom left) is on the legend.
+    bool is_on_legend(double x, double y) const;
 
     /// Elements drawn with a selection outline; empty = none.
     void set_highlighted_elements(const std::vector<Index>& elements);

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkLookupTable.h>
 #include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
@@ -143,13 +145,15 @@ void SurfaceActor::set_colors(const Tessellation& tessellation, const std::funct
         for (std::size_t corner = 0; corner < 3; ++corner)
             std::copy(bytes.begin(), bytes.end(), at + 3 * tessellation.triangles()[3 * triangle + corner]);
     }
+    mapper_->InterpolateScalarsBeforeMappingOff();
     data_->GetPointData()->SetScalars(colors);
     data_->Modified();
 }
 
-void SurfaceActor::set_section(const PlaneCut& section, const std::function<bool(Index)>& is_wanted,
-                               const std::function<Color(Index)>& color_of) {
+std::vector<Index> SurfaceActor::set_section(const PlaneCut& section, const std::function<bool(Index)>& is_wanted,
+                                             const std::function<Color(Index)>& color_of) {
     std::vector<float> points, normals;
+    std::vector<Index> origins;
     auto ids = vtkSmartPointer<vtkTypeInt64Array>::New();
     vtkNew<vtkUnsignedCharArray> colors;
     colors->SetNumberOfComponents(3);
@@ -163,6 +167,7 @@ void SurfaceActor::set_section(const PlaneCut& section, const std::function<bool
             Index& to = copied[static_cast<std::size_t>(from)];
             if (to < 0) {
                 to = static_cast<Index>(points.size() / 3);
+                origins.push_back(from);
                 const Color color = color_of(elements[triangle]);
                 for (std::size_t d = 0; d < 3; ++d) {
                     points.push_back(section.points()[3 * static_cast<std::size_t>(from) + d]);
@@ -176,7 +181,7 @@ void SurfaceActor::set_section(const PlaneCut& section, const std::function<bool
     }
     data_->Initialize();
     actor_->SetVisibility(!points.empty());
-    if (points.empty()) return;
+    if (points.empty()) return {};
     auto starts = vtkSmartPointer<vtkTypeInt64Array>::New();
     for (vtkIdType i = 0; i <= ids->GetNumberOfValues(); i += 3) starts->InsertNextValue(i);
     vtkNew<vtkCellArray> triangles;
@@ -186,14 +191,45 @@ void SurfaceActor::set_section(const PlaneCut& section, const std::function<bool
     data_->SetPoints(positions);
     data_->SetPolys(triangles);
     data_->GetPointData()->SetNormals(is_lit_ ? copy_triples(normals) : nullptr);
+    mapper_->InterpolateScalarsBeforeMappingOff();
     data_->GetPointData()->SetScalars(colors);
     data_->Modified();
+    return origins;
 }
 
 void SurfaceActor::set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin,
                            double mesh_size) {
     const std::array<float, 4> cut = cut_coefficients(plane, origin, mesh_size);
     actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform4f("surfaceCut", cut.data());
+}
+
+void SurfaceActor::set_field(const std::vector<double>& values, const ColorScale& scale) {
+    constexpr int table_size = 512;
+    vtkNew<vtkLookupTable> table;
+    table->SetNumberOfTableValues(table_size);
+    table->SetTableRange(0.0, 1.0);
+    for (int i = 0; i < table_size; ++i) {
+        const double t = (i + 0.5) / table_size;
+        const Color color = map_color(scale.map, scale.is_reversed ? 1.0 - t : t);
+        table->SetTableValue(i, color[0], color[1], color[2], 1.0);
+    }
+    const Color none = no_value_color();
+    table->SetNanColor(none[0], none[1], none[2], 1.0);
+    // Positions in the range instead of the numbers themselves, which single precision may not tell apart.
+    vtkNew<vtkFloatArray> positions;
+    positions->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
+    constexpr double farthest = 100.0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double position = scale.position(values[i]);
+        positions->SetValue(static_cast<vtkIdType>(i),
+                            std::isfinite(position) ? static_cast<float>(std::clamp(position, -farthest, farthest))
+                                                    : std::numeric_limits<float>::quiet_NaN());
+    }
+    mapper_->SetLookupTable(table);
+    mapper_->UseLookupTableScalarRangeOn();
+    mapper_->InterpolateScalarsBeforeMappingOn();
+    data_->GetPointData()->SetScalars(positions);
+    data_->Modified();
 }
 
 void SurfaceActor::clear() {

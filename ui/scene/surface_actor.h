@@ -8,7 +8,7 @@
 
 #include "core/tessellate/plane_cut.h"
 #include "core/tessellate/tessellation.h"
-#include "ui/palette/quality_colors.h"
+#include "ui/palette/color_map.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
@@ -17,8 +17,8 @@ class vtkPolyData;
 
 namespace curvewright {
 
-/// The surface of a tessellation, one colour per element; on request hatched with stripes of constant width on the
-/// screen.
+/// The surface of a tessellation, one colour per element or those of a field; on request hatched with stripes of
+/// constant width on the screen.
 class SurfaceActor {
   public:
     SurfaceActor();
@@ -30,9 +30,12 @@ class SurfaceActor {
     /// is_new: the connectivity is not that of the call before.
     void set_surface(const Tessellation& tessellation, bool is_new);
     void set_colors(const Tessellation& tessellation, const std::function<Color(Index element)>& color_of);
-    /// Instead of a tessellation: the section's inside, of the elements that are wanted.
-    void set_section(const PlaneCut& section, const std::function<bool(Index element)>& is_wanted,
+    /// Instead of a tessellation: the section's inside, of the elements that are wanted. Returns the point of the section
+    /// that each of the surface's points is.
+    std::vector<Index> set_section(const PlaneCut& section, const std::function<bool(Index element)>& is_wanted,
                      const std::function<Color(Index element)>& color_of);
+    /// values: one per surface point, NaN = none; between the points they, not their colours, are interpolated.
+    void set_field(const std::vector<double>& values, const ColorScale& scale);
     void clear();
     /// What lies beyond the plane is left out; none: nothing is. origin: of the points.
     void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size);

@@ -65,11 +65,11 @@ TEST(Msh, skips_what_it_does_not_know_with_a_note) {
     const std::string mesh = read_text_file(test_data("annulus.msh"));
     const std::string extra =
         "$Comments\nanything $Nodes\n$EndComments\n$Periodic\n1\n1 2 3\n$EndPeriodic\n"
-        "$NodeData\n1\n\"a\"\n$EndNodeData\n$GhostElements\n0\n$EndGhostElements\n";
+        "$ElementNodeData\n1\n\"a\"\n$EndElementNodeData\n$GhostElements\n0\n$EndGhostElements\n";
     const ReadResult result = read_mesh(folder.write("a.msh", mesh + extra));
     EXPECT_EQ(result.mesh.topology().element_count(), 30);
     EXPECT_EQ(result.notes,
-              (std::vector<std::string>{"Section $Periodic was skipped.", "Section $NodeData was skipped.",
+              (std::vector<std::string>{"Section $Periodic was skipped.", "Section $ElementNodeData was skipped.",
                                         "Section $GhostElements was skipped."}));
 }
 

@@ -403,5 +403,69 @@ TEST(Tessellation, WarpedAndFoldedQuadrilateralsAreCutFiner) {
     EXPECT_GE(folded.triangle_elements().size(), 32u);
 }
 
+// ---------------------------------------------------------------------------------------------------- fields
+
+/// A cubic polynomial and its gradient's first entry, as two components.
+std::vector<double> cubic_field(const Coordinates& x) {
+    std::vector<double> values;
+    for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        values.push_back(std::pow(x(i, 0), 3) - 2.0 * x(i, 0) * x(i, 1) * x(i, 1) + x(i, 2));
+        values.push_back(3.0 * x(i, 0) * x(i, 0) - 2.0 * x(i, 1) * x(i, 1));
+    }
+    return values;
+}
+
+/// Surface points in mesh coordinates.
+Coordinates surface_of(const Tessellation& drawn) {
+    const auto count = static_cast<Eigen::Index>(drawn.surface_points().size() / 3);
+    Coordinates x(count, 3);
+    for (Eigen::Index i = 0; i < count; ++i)
+        for (int d = 0; d < 3; ++d)
+            x(i, d) = drawn.surface_points()[static_cast<std::size_t>(3 * i + d)] + drawn.origin()[d];
+    return x;
+}
+
+TEST(Fields, PolynomialsOfTheElementsOrderAreExactAtThePoints) {
+    for (const CurvedMesh& mesh : {testing::square_mesh(3, 3), testing::quad_mesh(2, 3), testing::cube_mesh(2, 3),
+                                   testing::hex_mesh(1, 3), testing::prism_mesh(1, 3)}) {
+        TessellationOptions options;
+        options.field_subdivisions = 5;
+        const Tessellation drawn(mesh, {}, options);
+        const std::vector<double> values = drawn.evaluate(cubic_field(mesh.coordinates()), 2);
+        const std::vector<double> expected = cubic_field(surface_of(drawn));
+        ASSERT_EQ(values.size(), expected.size());
+        for (std::size_t i = 0; i < values.size(); ++i) EXPECT_NEAR(values[i], expected[i], 2e-6);
+    }
+}
+
+TEST(Fields, StraightElementsAreCutFinerForThem) {
+    const CurvedMesh cubic = testing::square_mesh(2, 3), linear = testing::square_mesh(2, 1);
+    TessellationOptions options;
+    EXPECT_EQ(Tessellation(cubic, {}, options).triangles().size(), 3u * 8);
+    options.field_subdivisions = 6;
+    EXPECT_EQ(Tessellation(cubic, {}, options).triangles().size(), 3u * 8 * 36);
+    EXPECT_EQ(Tessellation(linear, {}, options).triangles().size(), 3u * 8);  // nothing to see between their corners
+    // Moving keeps them as they are.
+    EXPECT_TRUE(Tessellation(cubic, {}, options).is_fine_enough(cubic.coordinates()));
+}
+
+TEST(Fields, MissingValuesSpreadOverTheirElementOnly) {
+    const CurvedMesh mesh = testing::square_mesh(2, 2);
+    const Tessellation drawn(mesh);
+    std::vector<double> values(static_cast<std::size_t>(mesh.topology().node_count()), 1.0);
+    const Index inside = mesh.topology().element_nodes(3)[4];
+    values[static_cast<std::size_t>(inside)] = std::nan("");
+    const std::vector<double> at_points = drawn.evaluate(values, 1);
+    for (std::size_t triangle = 0; triangle < drawn.triangle_elements().size(); ++triangle) {
+        const auto nodes = mesh.topology().element_nodes(drawn.triangle_elements()[triangle]);
+        const bool has_it = std::find(nodes.begin(), nodes.end(), inside) != nodes.end();
+        for (std::size_t corner = 0; corner < 3; ++corner)
+            EXPECT_EQ(std::isnan(at_points[static_cast<std::size_t>(drawn.triangles()[3 * triangle + corner])]),
+                      has_it);
+    }
+    EXPECT_THROW(drawn.evaluate(values, 2), InvalidInput);
+    EXPECT_THROW(drawn.evaluate({1.0}, 1), InvalidInput);
+}
+
 }  // namespace
 }  // namespace curvewright
