@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -39,6 +40,25 @@ TEST(Images, RingWithATangledElement) {
     MeshScene scene;
     scene.set_mesh(&mesh, &report);
     check_against_baseline(scene, "ring");
+}
+
+TEST(Images, RingWithAFieldOnItsNodes) {
+    const CurvedMesh mesh = make_ring();
+    const QualityReport report = make_report(mesh, {tangled_ring_element});
+    auto field = std::make_shared<FieldArray>();
+    for (Eigen::Index i = 0; i < mesh.coordinates().rows(); ++i)
+        field->values.push_back(40.0 * mesh.coordinates()(i, 0) * mesh.coordinates()(i, 1));
+    field->values[static_cast<std::size_t>(mesh.topology().element_nodes(20)[9])] = std::nan("");
+    Coloring coloring;
+    coloring.source = Coloring::Source::array;
+    coloring.map = ColorMap::balance;
+    coloring.array = field;
+    coloring.title = "A name that is long";
+    coloring.detail = "nodes";
+    MeshScene scene;
+    scene.set_coloring(coloring);
+    scene.set_mesh(&mesh, &report);
+    check_against_baseline(scene, "ring_field");
 }
 
 TEST(Images, RingWithNodesAndHighlightOnDark) {

@@ -55,6 +55,7 @@ void MainWindow::follow_coloring() {
         element_numbers_.request(
             kind == ColorSetting::Kind::size ? ElementNumbers::Kind::size : ElementNumbers::Kind::shape,
             document_.state().mesh, has_before ? document_.before().mesh : nullptr, document_.original().mesh);
+        color_bar_->show_waiting();
         return;
     }
     element_numbers_.cancel();

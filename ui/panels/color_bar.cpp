@@ -359,6 +359,10 @@ void ColorBar::show_range(double lower, double upper) {
             QString::number(std::abs(value) < 1e-9 * extent ? 0.0 : value, 'g', std::clamp(digits, 0, 12) + 3));
 }
 
+void ColorBar::show_waiting() {
+    for (QLineEdit* field : {lower_, upper_}) field->setPlaceholderText(QStringLiteral("…"));
+}
+
 void ColorBar::show_setting() {
     is_showing_ = true;
     map_->setCurrentIndex(map_->findData(static_cast<int>(setting_.map)));

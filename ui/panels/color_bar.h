@@ -40,6 +40,8 @@ class ColorBar : public QWidget {
     const ColorScale& quality_scale() const { return quality_scale_; }
     /// The range that is shown now: what stands in the fields that the user has left empty.
     void show_range(double lower, double upper);
+    /// The numbers are being computed; show_range() ends that.
+    void show_waiting();
     /// Offers what the document's mesh has; chooses what was chosen last, or else the scaled Jacobian.
     void refresh();
 
