@@ -13,6 +13,7 @@ namespace {
 const Command command_list[] = {
     {CommandId::open, CommandMenu::file, "open", TEXT("&Open…"), TEXT("Open a mesh"), "open", "Ctrl+O", false, false, 1},
     {CommandId::load_deformation, CommandMenu::file, "load_deformation", TEXT("Load &deformation…"), TEXT("Load a boundary deformation, a node table or a mesh with final positions"), "deformation", "Ctrl+L"},
+    {CommandId::open_session, CommandMenu::file, "open_session", TEXT("Op&en session…"), TEXT("Open a mesh and do again what a session says, with its steps in the history"), "", "Ctrl+Shift+O"},
     {CommandId::save, CommandMenu::file, "save", TEXT("&Save"), TEXT("Save the mesh"), "save", "Ctrl+S", false, true, 1},
     {CommandId::save_as, CommandMenu::file, "save_as", TEXT("Save &as…"), TEXT("Save the mesh under another name"), "", "Ctrl+Shift+S"},
     {CommandId::export_mesh, CommandMenu::file, "export", TEXT("&Export…"), TEXT("Write a copy as VTU (with quality and displacement), MSH or VTK"), "export", "Ctrl+Shift+E", false, false, 1},

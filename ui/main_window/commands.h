@@ -14,6 +14,7 @@ namespace curvewright {
 enum class CommandId {
     open,
     load_deformation,
+    open_session,
     save,
     save_as,
     export_mesh,

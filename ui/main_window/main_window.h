@@ -57,7 +57,8 @@ class MainWindow : public QMainWindow {
     QAction* action(CommandId id) const { return actions_[id]; }
 
     /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is
-    /// loaded as a deformation of the open mesh. apply: also apply the deformation to the boundary.
+    /// loaded as a deformation of the open mesh, unless it is a session: that is done again. apply: also apply the
+    /// deformation to the boundary.
     void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
     void open_sample(const Sample& sample);
     const SampleCatalog& samples() const { return samples_; }
@@ -123,6 +124,8 @@ class MainWindow : public QMainWindow {
     void connect_session();
     void offer_lost_work();
     void recover(const LostWork& lost);
+    void open_session(const QString& path);
+    void ask_open_session();
 
     // main_window_files.cpp
     void ask_open();
@@ -135,6 +138,9 @@ class MainWindow : public QMainWindow {
     /// Runs next now, or after the user has saved the changes or given them up; not at all if the user cancels.
     void when_settled(std::function<void()> next);
     QString suggested_path(const QString& suffix) const;
+    /// Where file dialogs begin.
+    static QString last_folder();
+    static void remember_folder(const QString& path);
 
     Theme& theme_;
     Dialogs dialogs_;

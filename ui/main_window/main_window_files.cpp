@@ -9,6 +9,7 @@
 #include <QStandardPaths>
 #include <QStatusBar>
 
+#include "core/session/session_file.h"
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/operation_panels.h"
@@ -53,14 +54,6 @@ bool is_deformation_file(const QString& path) {
     return suffix == QLatin1String("json") || suffix == QLatin1String("csv");
 }
 
-QString last_folder() {
-    return QSettings().value(QStringLiteral("last_folder"), QDir::homePath()).toString();
-}
-
-void remember_folder(const QString& path) {
-    QSettings().setValue(QStringLiteral("last_folder"), QFileInfo(path).absolutePath());
-}
-
 QString first_file(const QMimeData* data) {
     for (const QUrl& url : data->urls())
         if (url.isLocalFile()) return url.toLocalFile();
@@ -68,6 +61,14 @@ QString first_file(const QMimeData* data) {
 }
 
 }  // namespace
+
+QString MainWindow::last_folder() {
+    return QSettings().value(QStringLiteral("last_folder"), QDir::homePath()).toString();
+}
+
+void MainWindow::remember_folder(const QString& path) {
+    QSettings().setValue(QStringLiteral("last_folder"), QFileInfo(path).absolutePath());
+}
 
 bool MainWindow::is_busy() {
     // A hand that is still on the mesh lets go of it.
@@ -100,6 +101,10 @@ void MainWindow::when_settled(std::function<void()> next) {
 
 void MainWindow::open_file(const QString& path, const QString& deformation_path, bool apply) {
     if (is_busy()) return;
+    if (is_session_file(path.toStdU16String())) {
+        open_session(path);
+        return;
+    }
     if (is_deformation_file(path)) {
         load_deformation(path);
         return;
@@ -139,6 +144,10 @@ void MainWindow::open_sample(const Sample& sample) {
 
 void MainWindow::load_deformation(const QString& path) {
     if (is_busy()) return;
+    if (is_session_file(path.toStdU16String())) {
+        open_session(path);
+        return;
+    }
     if (!document_.has_mesh()) {
         dialogs_.show_error(
             this, tr("No mesh is open"),
