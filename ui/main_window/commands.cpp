@@ -17,7 +17,7 @@ const Command command_list[] = {
     {CommandId::save, CommandMenu::file, "save", TEXT("&Save"), TEXT("Save the mesh"), "save", "Ctrl+S", false, true, 1},
     {CommandId::save_as, CommandMenu::file, "save_as", TEXT("Save &as…"), TEXT("Save the mesh under another name"), "", "Ctrl+Shift+S"},
     {CommandId::export_mesh, CommandMenu::file, "export", TEXT("&Export…"), TEXT("Write a copy as VTU (with quality and displacement), MSH or VTK"), "export", "Ctrl+Shift+E", false, false, 1},
-    {CommandId::save_picture, CommandMenu::file, "save_picture", TEXT("Save &picture…"), TEXT("Save what the view shows as PNG"), "picture", "F12", false, false, 1},
+    {CommandId::save_picture, CommandMenu::file, "save_picture", TEXT("Save &picture…"), TEXT("Save or copy what the view shows as a picture of any size"), "picture", "F12", false, false, 1},
     {CommandId::save_session, CommandMenu::file, "save_session", TEXT("Save sessi&on…"), TEXT("Save everything that was done, for curvewright-cli replay"), "", ""},
     {CommandId::close_mesh, CommandMenu::file, "close_mesh", TEXT("&Close mesh"), TEXT("Close the mesh and go back to the start page"), "", "Ctrl+W", false, true},
     {CommandId::quit, CommandMenu::file, "quit", TEXT("&Quit"), TEXT("Leave the program"), "quit", "Ctrl+Q"},

@@ -64,8 +64,6 @@ class MainWindow : public QMainWindow {
     const SampleCatalog& samples() const { return samples_; }
     /// Brings up a tab of the right panel: "edit", "inspect", "deform", "warp" or "untangle".
     void show_tab(const QString& name);
-    /// Writes what the view shows, at `scale` times its size; tells the user if that fails.
-    bool save_picture(const QString& path, int scale);
 
   protected:
     void closeEvent(QCloseEvent* event) override;

@@ -23,8 +23,8 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
+#include "ui/main_window/picture_drawing.h"
 #include "ui/tools/tool.h"
 
 namespace curvewright {
@@ -223,31 +223,36 @@ void MeshView::fly(const std::function<void()>& set) {
 }
 
 QImage MeshView::picture(int scale) {
+    return picture(PictureOptions{.size = scale * device_size(), .is_smooth = false});
+}
+
+QImage MeshView::picture(const PictureOptions& options) {
     Parts& parts = *parts_;
     if (!parts.window->GetReadyForRendering()) return {};
+    const int largest = largest_picture_side();
+    if (!why_no_picture(options.size, largest).isEmpty()) return {};
     makeCurrent();
-    const std::array<int, 2> shown{parts.window->GetSize()[0], parts.window->GetSize()[1]};
-    const int width = shown[0] * scale, height = shown[1] * scale;
-    SceneOptions enlarged = parts.options;
-    enlarged.pixel_ratio *= scale;
-    parts.scene.set_options(enlarged);
-    parts.window->SetSize(width, height);
-    vtkOpenGLState* state = parts.window->GetState();
-    state->Reset();
-    state->Push();
-    state->vtkglDepthFunc(GL_LEQUAL);
-    parts.window->Render();
-    state->Pop();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    const bool is_read = parts.window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels.Get(), 0) != 0;
-    QImage image;
-    if (is_read && pixels->GetNumberOfValues() == vtkIdType(3) * width * height)
-        image = QImage(pixels->GetPointer(0), width, height, 3 * width, QImage::Format_RGB888).mirrored();
-    parts.scene.set_options(parts.options);
-    parts.window->SetSize(shown[0], shown[1]);
+    QImage image = draw_picture(parts.scene, parts.window, parts.options, device_size(), options, largest);
     doneCurrent();
     request_frame();
     return image;
+}
+
+int MeshView::largest_picture_side() {
+    makeCurrent();
+    const int side = curvewright::largest_picture_side();
+    doneCurrent();
+    return side;
+}
+
+QSize MeshView::device_size() const {
+    const int* size = parts_->window->GetSize();
+    return {size[0], size[1]};
+}
+
+void MeshView::lend_view(MeshScene& scene) const {
+    scene.set_mesh(parts_->state.mesh.get(), parts_->state.quality.get());
+    scene.copy_view(parts_->scene, true);
 }
 
 void MeshView::initializeGL() {

@@ -14,6 +14,7 @@
 namespace curvewright {
 
 class Tool;
+struct PictureOptions;
 
 /// The picture of the mesh: a MeshScene in a Qt widget (a vtkGenericOpenGLRenderWindow that draws into the widget's
 /// framebuffer). Renders at most once per repaint of the window, and only if something has changed.
@@ -48,6 +49,13 @@ class MeshView : public QOpenGLWidget, public Canvas {
 
     /// What the view shows, drawn anew at `scale` times its size in device pixels. Null if nothing can be drawn.
     QImage picture(int scale);
+    /// The same at any size. Null if nothing can be drawn; why_no_picture() of the largest side may tell why.
+    QImage picture(const PictureOptions& options);
+    /// What the graphics can draw, pixels.
+    int largest_picture_side();
+    QSize device_size() const;
+    /// Shows in another scene what this view shows, from the same place.
+    void lend_view(MeshScene& scene) const;
 
     bool is_flat() const override;
     QPointF to_display(const Eigen::RowVector3d& point) const override;

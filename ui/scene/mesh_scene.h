@@ -10,11 +10,14 @@
 #include "core/quality/quality.h"
 #include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
+#include "ui/scene/view_metrics.h"
 
 class vtkRenderer;
 class vtkRenderWindowInteractor;
 
 namespace curvewright {
+
+struct CameraState;
 
 /// Elements whose centre is on the positive side of the plane are hidden (whole elements).
 struct ClipPlane {
@@ -73,6 +76,12 @@ class MeshScene {
 
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
+
+    /// Where the camera is, to be put back there.
+    CameraState camera_state() const;
+    void set_camera_state(const CameraState& state);
+    /// Where the camera's world lies in the mesh's space.
+    const WorldFrame& world_frame() const;
 
     /// Takes over the view of another scene that shows the same mesh or another state of it. One that is kept fitted to
     /// the window is kept fitted to this scene's own; is_exact: the camera is where the other one is, and stays there.
