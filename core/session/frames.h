@@ -28,6 +28,8 @@ class FrameSource {
     virtual int count() const = 0;
     /// pre: 0 <= index < count(). Throws Cancelled and what computing the frame throws.
     virtual Frame make(int index, const TaskContext& context) = 0;
+    /// What there is to say about the frames made so far, one sentence; "" = nothing.
+    virtual std::string remark() const { return {}; }
 };
 
 /// A part of a motion, from one state to the next.
@@ -52,11 +54,14 @@ class MotionFrames : public FrameSource {
 
     int count() const override { return count_; }
     Frame make(int index, const TaskContext& context) override;
+    std::string remark() const override;
     /// The same without the certificate.
     Coordinates positions(int index, const TaskContext& context);
     /// The legs whose deformation does not lead to their end, because its file has changed or because there was more to
     /// it than this: their nodes go straight. Known of those that frames were made of.
     const std::vector<std::string>& straightened() const { return straightened_; }
+    /// A leg that is given without its deformation because that cannot be had any more.
+    void add_straightened(const std::string& caption) { straightened_.push_back(caption); }
 
   private:
     struct Mover;

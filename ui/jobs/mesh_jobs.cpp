@@ -174,6 +174,10 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
     });
 }
 
+bool MeshJobs::write_film(FilmRequest request) {
+    return runner_.start(tr("Writing the animation"), film_work(this, std::move(request)));
+}
+
 QString MeshJobs::why_not_deform() const {
     if (!document_.has_mesh()) return tr("Open a mesh first.");
     if (!document_.deformation()) return tr("Load a deformation first.");

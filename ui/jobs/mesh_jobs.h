@@ -9,6 +9,7 @@
 #include "core/io/mesh_io.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
+#include "ui/jobs/film.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/restoring.h"
 #include "ui/jobs/untangling.h"
@@ -59,6 +60,9 @@ class MeshJobs : public QObject {
     /// Writes the present state; VTU and VTK with quality and the displacement from the mesh as opened. mark_saved: the
     /// file becomes the document's own.
     bool write(const QString& path, std::optional<MeshFormat> format, bool mark_saved);
+
+    /// Writes the pictures of a film; the document stays.
+    bool write_film(FilmRequest request);
 
     /// Why the operation cannot run on the present state, as a sentence; empty if it can.
     QString why_not_deform() const;

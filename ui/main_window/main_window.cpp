@@ -78,6 +78,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_panels();
     connect_editing();
     connect_session();
+    connect_views();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
         if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
@@ -259,6 +260,8 @@ void MainWindow::update_commands() {
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
     actions_[CommandId::clip]->setEnabled(is_3d);
     actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
+    actions_[CommandId::bookmark_add]->setEnabled(has_mesh);
+    actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh && document_.history()->index() > 0);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
     actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());

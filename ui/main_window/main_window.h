@@ -11,6 +11,7 @@
 #include "ui/document/mesh_document.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
+#include "ui/document/view_bookmarks.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
 #include "ui/main_window/commands.h"
@@ -125,6 +126,13 @@ class MainWindow : public QMainWindow {
     void open_session(const QString& path);
     void ask_open_session();
 
+    // main_window_views.cpp
+    void connect_views();
+    void fill_bookmarks_menu();
+    void add_bookmark();
+    void go_to_bookmark(int number);
+    void ask_export_film();
+
     // main_window_files.cpp
     void ask_open();
     void ask_load_deformation();
@@ -148,6 +156,7 @@ class MainWindow : public QMainWindow {
     LiveDrag drag_;
     RecentFiles recent_;
     SampleCatalog samples_;
+    ViewBookmarks bookmarks_;
     std::unique_ptr<Journal> journal_;
     CommandActions actions_;
 
@@ -171,7 +180,8 @@ class MainWindow : public QMainWindow {
     QualityPanel* quality_panel_ = nullptr;
     QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
-    QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr;
+    QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
+    QList<QAction*> bookmark_actions_;
 
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name

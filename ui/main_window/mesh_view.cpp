@@ -199,6 +199,32 @@ void MeshView::fly_to(Index element) {
     fly([this, element] { parts_->scene.focus_element(element); });
 }
 
+ViewPose MeshView::pose() const {
+    const WorldFrame& frame = parts_->scene.world_frame();
+    const CameraPose camera = CameraPose::of(parts_->scene.renderer()->GetActiveCamera());
+    ViewPose pose{{}, {}, camera.up, camera.scale * frame.size};
+    for (std::size_t i = 0; i < 3; ++i) {
+        pose.position[i] = camera.position[i] * frame.size + frame.origin[static_cast<Eigen::Index>(i)];
+        pose.focus[i] = camera.focus[i] * frame.size + frame.origin[static_cast<Eigen::Index>(i)];
+    }
+    return pose;
+}
+
+void MeshView::fly_to(const ViewPose& pose) {
+    fly([&] {
+        const WorldFrame& frame = parts_->scene.world_frame();
+        vtkCamera* camera = parts_->scene.renderer()->GetActiveCamera();
+        CameraPose target = CameraPose::of(camera);
+        for (std::size_t i = 0; i < 3; ++i) {
+            target.position[i] = (pose.position[i] - frame.origin[static_cast<Eigen::Index>(i)]) / frame.size;
+            target.focus[i] = (pose.focus[i] - frame.origin[static_cast<Eigen::Index>(i)]) / frame.size;
+        }
+        target.up = pose.up;
+        target.scale = pose.scale / frame.size;
+        target.apply(camera);
+    });
+}
+
 void MeshView::fit_to(const Eigen::RowVector3d& center, double radius) {
     fly([&] { parts_->scene.focus_ball(center, radius); });
 }
@@ -212,7 +238,8 @@ void MeshView::fly(const std::function<void()>& set) {
     const CameraPose end = CameraPose::of(renderer->GetActiveCamera());
     parts.flight.disconnect(this);
     connect(&parts.flight, &QVariantAnimation::valueChanged, this, [this, renderer, start, end](const QVariant& value) {
-        between(start, end, value.toDouble()).apply(renderer->GetActiveCamera());
+        const double way = value.toDouble();
+        (way < 1.0 ? between(start, end, way) : end).apply(renderer->GetActiveCamera());
         renderer->ResetCameraClippingRange();
         request_frame();
     });

@@ -8,6 +8,7 @@
 #include <QOpenGLWidget>
 
 #include "ui/document/mesh_document.h"
+#include "ui/document/view_bookmarks.h"
 #include "ui/scene/mesh_scene.h"
 #include "ui/tools/canvas.h"
 
@@ -44,6 +45,9 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void follow_camera(const MeshView& other);
     /// Moves the camera to an element within 200 ms.
     void fly_to(Index element);
+    /// Where the camera is, and moving it to where one was within 200 ms. They belong to a mesh that is shown.
+    ViewPose pose() const;
+    void fly_to(const ViewPose& pose);
     /// Moves the camera so that a ball fills the view; radius 0: a little of the mesh around the point.
     void fit_to(const Eigen::RowVector3d& center, double radius);
 

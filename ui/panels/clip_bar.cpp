@@ -60,6 +60,12 @@ void ClipBar::show_layer(double position) {
                                          : static_cast<int>(std::ceil(step + rounding)));
 }
 
+void ClipBar::set_setting(const ClipSetting& setting) {
+    if (QAbstractButton* button = axes_->button(setting.axis)) button->setChecked(true);
+    flip_->setChecked(setting.is_flipped);
+    slider_->setValue(static_cast<int>(std::lround(setting.position * slider_->maximum())));
+}
+
 ClipSetting ClipBar::setting() const {
     return {axes_->checkedId(), flip_->isChecked(), slider_->value() / double(slider_->maximum())};
 }

@@ -24,6 +24,7 @@ class ClipBar : public QWidget {
   public:
     explicit ClipBar(const Theme& theme, QWidget* parent = nullptr);
     ClipSetting setting() const;
+    void set_setting(const ClipSetting& setting);
     /// Moves the plane, at most a step of the slider farther than told, so that what lies at `position` along the axis
     /// (a fraction of the mesh's extent) is just not hidden.
     void show_layer(double position);
