@@ -53,29 +53,37 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     std::error_code error;
     std::filesystem::create_directories(options.folder, error);
     if (error)
-        throw InvalidInput(options.folder.string(), 0,
-                           fmt::format("the folder cannot be made ({}).", error.message()));
+        throw InvalidInput(options.folder.string(), 0, fmt::format("the folder cannot be made ({}).", error.message()));
 
     MeshScene scene;
     SceneOptions scene_options;
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     scene_options.show_legend = options.shows_legend;
     scene.set_options(scene_options);
-    // From one place all the way: that of the end, where the mesh has gone to.
-    scene.set_mesh(&end, nullptr);
     const int pictures = options.goes_back ? 2 * (options.frames - 1) : options.frames;
     const PictureGround ground = options.is_transparent ? PictureGround::transparent : PictureGround::background;
     double least = 1.0;
-    for (int index = 0; index < options.frames; ++index) {
-        context.report(fmt::format("Frame {} of {}", index + 1, options.frames),
-                       static_cast<double>(index) / options.frames);
-        const Frame frame = film.make(index, {context.stop, {}});
-        scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
-        if (frame.quality) least = std::min(least, frame.quality->summary.min);
-        render_png(scene, options.width, options.height, file_of(options, index + 1), ground);
-        if (options.goes_back && index > 0 && index < options.frames - 1)
-            std::filesystem::copy_file(file_of(options, index + 1), file_of(options, pictures - index + 1),
+    std::vector<std::filesystem::path> written;
+    try {
+        for (int index = 0; index < options.frames; ++index) {
+            context.report(fmt::format("Frame {} of {}", index + 1, options.frames),
+                           static_cast<double>(index) / options.frames);
+            const Frame frame = film.make(index, {context.stop, {}});
+            // The view is fitted to the first picture and stays where it is.
+            scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
+            if (frame.quality) least = std::min(least, frame.quality->summary.min);
+            written.push_back(file_of(options, index + 1));
+            render_png(scene, options.width, options.height, written.back(), ground);
+            if (!options.goes_back || index == 0 || index == options.frames - 1) continue;
+            // The way back shows the same.
+            written.push_back(file_of(options, pictures - index + 1));
+            std::filesystem::copy_file(file_of(options, index + 1), written.back(),
                                        std::filesystem::copy_options::overwrite_existing);
+        }
+    } catch (...) {
+        // A command that does not succeed leaves nothing.
+        for (const std::filesystem::path& file : written) std::filesystem::remove(file, error);
+        throw;
     }
     finish_timings(timings, watch);
     if (invocation.common.json)

@@ -120,7 +120,9 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
     legend_->setEnabled(view.options().show_legend);
     caption_ = make_check("film_caption", tr("Caption"), tr("What happens, at the lower left of every picture"),
                           saved("caption", true).toBool());
-    folder_ = new QLineEdit(saved("folder", QDir::homePath()).toString());
+    const QString beside = settings.value(QStringLiteral("last_folder"), QDir::homePath()).toString() +
+                           tr("/%1-animation").arg(QFileInfo(document.file_name()).completeBaseName());
+    folder_ = new QLineEdit(saved("folder", beside).toString());
     folder_->setObjectName(QStringLiteral("film_folder"));
     auto* browse = new QPushButton(tr("Choose…"));
     browse->setObjectName(QStringLiteral("film_browse"));
@@ -318,6 +320,8 @@ void FilmDialog::start() {
     has_caption_ = caption_->isChecked();
     const Color& ink = view_.options().foreground;
     caption_color_ = QColor::fromRgbF(float(ink[0]), float(ink[1]), float(ink[2]));
+    const Color& ground = view_.options().background;
+    caption_ground_ = QColor::fromRgbF(float(ground[0]), float(ground[1]), float(ground[2]), 0.75f);
     FilmRequest request;
     request.source = film_of_history(jobs_.document(), from_->currentData().toInt(), frames_->value());
     request.goes_back = back_->isChecked();
@@ -345,9 +349,13 @@ QImage FilmDialog::draw(const Frame& frame) {
     QFont font = this->font();
     font.setPixelSize(std::max(6, qRound(14 * unit)));
     painter.setFont(font);
+    const QRectF place = QRectF(image.rect()).adjusted(12 * unit, 0, -12 * unit, -10 * unit);
+    const QString text = QString::fromStdString(frame.caption);
+    // Legible on whatever of the mesh is behind it.
+    const QRectF words = painter.boundingRect(place, Qt::AlignLeft | Qt::AlignBottom, text);
+    painter.fillRect(words.adjusted(-4 * unit, -2 * unit, 4 * unit, 2 * unit), caption_ground_);
     painter.setPen(caption_color_);
-    painter.drawText(QRectF(image.rect()).adjusted(12 * unit, 0, -12 * unit, -10 * unit),
-                     Qt::AlignLeft | Qt::AlignBottom, QString::fromStdString(frame.caption));
+    painter.drawText(place, Qt::AlignLeft | Qt::AlignBottom, text);
     return image;
 }
 
