@@ -236,6 +236,8 @@ void MeshView::fly(const std::function<void()>& set) {
     const CameraPose start = CameraPose::of(renderer->GetActiveCamera());
     set();
     const CameraPose end = CameraPose::of(renderer->GetActiveCamera());
+    // The animation does not tell its first value if it stood there before.
+    start.apply(renderer->GetActiveCamera());
     parts.flight.disconnect(this);
     connect(&parts.flight, &QVariantAnimation::valueChanged, this, [this, renderer, start, end](const QVariant& value) {
         const double way = value.toDouble();
