@@ -210,14 +210,19 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         if (is_writing_ && !phase.isEmpty()) show_message(tr("Writing %1…").arg(phase), "muted");
     });
     connect(&jobs.runner(), &JobRunner::running_changed, this, [this](bool is_running) {
-        if (!is_running && is_writing_) {
+        was_writing_ = !is_running && is_writing_;
+        if (was_writing_) {
             is_writing_ = false;
             studio_.reset();
         }
         refresh();
     });
-    connect(&jobs.runner(), &JobRunner::cancelled, this,
-            [this] { show_message(tr("Stopped; the pictures so far are in the folder."), "warning"); });
+    connect(&jobs.runner(), &JobRunner::failed, this, [this] {
+        if (was_writing_) show_message({}, "");
+    });
+    connect(&jobs.runner(), &JobRunner::cancelled, this, [this] {
+        if (was_writing_) show_message(tr("Stopped; the pictures so far are in the folder."), "warning");
+    });
     connect(&document, &MeshDocument::opened, this, &QDialog::reject);
     connect(&document, &MeshDocument::state_changed, this, [this] {
         // The present state is the end of the film.

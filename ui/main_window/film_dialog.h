@@ -61,7 +61,7 @@ class FilmDialog : public QDialog {
     MeshView& view_;
     std::unique_ptr<PictureStudio> studio_;  ///< while a film is written
     PictureOptions drawn_;
-    bool has_caption_ = false, is_writing_ = false;
+    bool has_caption_ = false, is_writing_ = false, was_writing_ = false;
     QColor caption_color_, caption_ground_;
     QProcess ffmpeg_;
     QString video_;
