@@ -102,9 +102,9 @@ Frame MotionFrames::make(int index, const TaskContext& context) {
 
 std::string MotionFrames::remark() const {
     if (straightened_.empty()) return {};
-    return fmt::format("In \"{}\"{} the nodes go straight from one state to the next: the deformation does not lead there.",
-                       straightened_.front(),
-                       straightened_.size() > 1 ? fmt::format(" and {} more", straightened_.size() - 1) : "");
+    return fmt::format(
+        "In \"{}\"{} the nodes go straight from one state to the next: the deformation does not lead there.",
+        straightened_.front(), straightened_.size() > 1 ? fmt::format(" and {} more", straightened_.size() - 1) : "");
 }
 
 int there_and_back(int index, int count) {

@@ -118,9 +118,8 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
 bool MeshJobs::deform() {
     if (!why_not_deform().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
-    return run_step(tr("Deforming the boundary"), true, [loaded](const CurvedMesh& mesh, const TaskContext&) {
-        return deform_step(mesh, loaded);
-    });
+    return run_step(tr("Deforming the boundary"), true,
+                    [loaded](const CurvedMesh& mesh, const TaskContext&) { return deform_step(mesh, loaded); });
 }
 
 bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {

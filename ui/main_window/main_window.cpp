@@ -247,7 +247,8 @@ void MainWindow::update_title() {
 
 void MainWindow::update_commands() {
     const bool is_idle = !jobs_.runner().is_running() && !drag_.is_active(), has_mesh = document_.has_mesh();
-    for (const CommandId id : {CommandId::open, CommandId::load_deformation, CommandId::open_session}) actions_[id]->setEnabled(is_idle);
+    for (const CommandId id : {CommandId::open, CommandId::load_deformation, CommandId::open_session})
+        actions_[id]->setEnabled(is_idle);
     actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::save_session,
                                CommandId::copy_command, CommandId::close_mesh})

@@ -220,17 +220,15 @@ void MainWindow::ask_save_picture() {
         *view_,
         [this] {
             QString selected;
-            const QString path =
-                dialogs_.save_file(this, tr("Save a picture"), suggested_path(QStringLiteral("png")),
-                                   tr("PNG (*.png)"), selected);
+            const QString path = dialogs_.save_file(this, tr("Save a picture"), suggested_path(QStringLiteral("png")),
+                                                    tr("PNG (*.png)"), selected);
             if (!path.isEmpty()) remember_folder(path);
             return path;
         },
         this);
     connect(&document_, &MeshDocument::opened, dialog, &QDialog::reject);
-    connect(dialog, &PictureDialog::failed, this, [this](const QString& message) {
-        dialogs_.show_error(this, tr("The picture was not saved"), message);
-    });
+    connect(dialog, &PictureDialog::failed, this,
+            [this](const QString& message) { dialogs_.show_error(this, tr("The picture was not saved"), message); });
     connect(dialog, &PictureDialog::saved, this, [this](const QString& path, QSize size) {
         const QString pixels = tr("%1 × %2 pixels").arg(size.width()).arg(size.height());
         statusBar()->showMessage(path.isEmpty() ? tr("The picture is on the clipboard (%1).").arg(pixels)

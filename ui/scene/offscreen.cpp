@@ -132,9 +132,9 @@ void render_png(MeshScene& scene, int width, int height, const std::filesystem::
         if (failure) std::rethrow_exception(failure);
     }
     const PicturePixels pixels =
-        is_transparent ? without_ground(drawn[0]->GetPointer(0), drawn[1]->GetPointer(0), factor * width,
-                                        factor * height, factor)
-                       : average(drawn[0]->GetPointer(0), factor * width, factor * height, factor);
+        is_transparent
+            ? without_ground(drawn[0]->GetPointer(0), drawn[1]->GetPointer(0), factor * width, factor * height, factor)
+            : average(drawn[0]->GetPointer(0), factor * width, factor * height, factor);
     vtkNew<vtkImageData> image;
     image->SetDimensions(width, height, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);
