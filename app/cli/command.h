@@ -70,5 +70,6 @@ void add_untangle(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_replay(CLI::App& app, Invocation& invocation);
+void add_animate(CLI::App& app, Invocation& invocation);
 
 }  // namespace curvewright::cli

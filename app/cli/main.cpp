@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     add_convert(app, invocation);
     add_render(app, invocation);
     add_replay(app, invocation);
+    add_animate(app, invocation);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {

@@ -15,6 +15,7 @@ namespace {
 struct Options {
     std::filesystem::path mesh, output;
     int width = 1200, height = 900;
+    PictureGround ground = PictureGround::background;
     SceneOptions scene;
     std::optional<double> clip_position;
     RenderColors colors;
@@ -54,7 +55,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     scene.set_options(scene_options);
     scene.set_coloring(coloring);
     scene.set_mesh(&mesh, quality ? &*quality : nullptr);
-    render_png(scene, options.width, options.height, options.output);
+    render_png(scene, options.width, options.height, options.output, options.ground);
     timings["render"] = rendering.seconds();
     finish_timings(timings, watch);
     if (invocation.common.json)
@@ -79,6 +80,9 @@ void add_render(CLI::App& app, Invocation& invocation) {
     command->add_option("--size", "Size in pixels (default 1200x900)")
         ->type_name("WxH")
         ->check([options](const std::string& text) { return parse_size(text, *options); });
+    command->add_flag_function(
+        "--transparent", [options](std::int64_t) { options->ground = PictureGround::transparent; },
+        "No ground: what is not the mesh is transparent");
     command->add_flag("--nodes", options->scene.show_nodes, "Draw the nodes");
     command->add_flag_function(
         "--no-edges", [options](std::int64_t) { options->scene.show_edges = false; },

@@ -44,6 +44,8 @@ std::optional<int> read_increments(const std::string& text) {
     return is_count && count >= 1 && count <= most_increments ? std::optional(count) : std::nullopt;
 }
 
+}  // namespace
+
 void add_weight_options(CLI::App& command, WarpOptions& options) {
     add_choice<Weighting>(
         command, "--weights", options.weighting,
@@ -86,6 +88,8 @@ void add_weight_options(CLI::App& command, WarpOptions& options) {
         ->check(number_that([](double value) { return value >= -4.0 && value <= 4.0; }, "a number from -4 to 4"))
         ->capture_default_str();
 }
+
+namespace {
 
 void add_solver_options(CLI::App& command, WarpOptions& options) {
     add_choice<SolverChoice>(

@@ -24,6 +24,8 @@ struct WarpArguments {
     IncrementOptions increments() const;
 };
 
+/// Adds those that say how the interior follows.
+void add_weight_options(CLI::App& command, WarpOptions& options);
 /// Adds the options of `warp` but the common ones. arguments must live as long as the command.
 void add_warp_options(CLI::App& command, WarpArguments& arguments);
 

@@ -1,6 +1,8 @@
 #include "core/session/session_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <fstream>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -378,6 +380,19 @@ std::vector<Action> parse_session(std::string_view text, const std::string& file
 
 std::vector<Action> read_session(const std::filesystem::path& file) {
     return parse_session(read_text_file(file), file.string());
+}
+
+bool is_session_file(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    // Long enough for the longest name of a mesh file in the line that opens it.
+    std::string start(1u << 15, '\0');
+    stream.read(start.data(), static_cast<std::streamsize>(start.size()));
+    start.resize(static_cast<std::size_t>(std::max<std::streamsize>(0, stream.gcount())));
+    const std::size_t begin = start.find_first_not_of(" \t\r\n");
+    if (begin == std::string::npos || start[begin] != '{') return false;
+    const std::string_view line = std::string_view(start).substr(begin, start.find('\n', begin) - begin);
+    const auto names = [line](const char* key) { return line.find(key) != std::string_view::npos; };
+    return names("\"action\"") && !names("\"operations\"");
 }
 
 void write_session(const std::filesystem::path& file, const std::vector<Action>& actions) {

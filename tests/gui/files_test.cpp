@@ -5,7 +5,6 @@
 #include <QDoubleSpinBox>
 #include <QDragEnterEvent>
 #include <QDropEvent>
-#include <QImage>
 #include <QLabel>
 #include <QMessageBox>
 #include <QMimeData>
@@ -194,24 +193,6 @@ class FilesTest : public QObject {
         QVERIFY(test.wait_for_job());
         QCOMPARE(test.errors.size(), 1);
         QVERIFY(test.errors[0].contains(QStringLiteral("out.vtu")));
-    }
-
-    void pictures_are_saved_once_and_twice_as_large() {
-        WindowUnderTest test;
-        test.open(test.inputs.path(QStringLiteral("square.msh")));
-        QTest::qWait(50);
-        QSize sizes[2];
-        for (int i : {0, 1}) {
-            test.file_answer = test.inputs.path(QStringLiteral("picture%1.png").arg(i));
-            test.filter_answer = i == 0 ? QStringLiteral("as the view") : QStringLiteral("twice");
-            test.click("tool_save_picture");
-            QVERIFY(test.errors.isEmpty());
-            const QImage image(test.file_answer);
-            QVERIFY(!image.isNull());
-            sizes[i] = image.size();
-            QVERIFY(image.pixelColor(image.rect().center()) != image.pixelColor(1, 1));
-        }
-        QCOMPARE(sizes[1], sizes[0] * 2);
     }
 
     void closing_with_changes_asks() {

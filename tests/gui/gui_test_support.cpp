@@ -49,6 +49,11 @@ WindowUnderTest::WindowUnderTest() {
         ++unsaved_questions;
         return unsaved_answer;
     };
+    dialogs.choose_folder = [this](QWidget*, const QString&, const QString&) { return file_answer; };
+    dialogs.ask_text = [this](QWidget*, const QString&, const QString&, const QString& text) {
+        text_suggestion = text;
+        return text_answer.isNull() ? text : text_answer;
+    };
     dialogs.show_error = [this](QWidget*, const QString&, const QString& message) { errors << message; };
     window = std::make_unique<MainWindow>(theme(), dialogs);
     window->resize(1280, 800);

@@ -50,7 +50,8 @@ struct WindowUnderTest {
     bool wait_for_job();
 
     Inputs inputs;
-    QString file_answer, filter_answer;                    ///< what the file dialogs answer
+    QString file_answer, filter_answer;    ///< what the file dialogs answer
+    QString text_answer, text_suggestion;  ///< what the question for a text answers (null: what is suggested), and that
     UnsavedAnswer unsaved_answer = UnsavedAnswer::cancel;  ///< what the question about unsaved changes answers
     int unsaved_questions = 0;                             ///< how often it was asked
     QStringList recover_questions;                         ///< about work that a crash left

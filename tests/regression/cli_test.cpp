@@ -155,6 +155,33 @@ TEST_F(CommandLine, RenderLooksInside) {
     }
 }
 
+TEST_F(CommandLine, RenderLeavesTheGroundOut) {
+    const std::string picture = folder / "clear.png";
+    ASSERT_EQ(cli({"render", annulus, "-o", picture, "--size", "320x240", "--transparent"}).status, 0);
+    EXPECT_EQ(read(picture)[25], 6);  // colour type: with alpha
+    ASSERT_EQ(cli({"render", annulus, "-o", picture, "--size", "320x240"}).status, 0);
+    EXPECT_EQ(read(picture)[25], 2);
+}
+
+TEST_F(CommandLine, AnimateWritesPicturesOfAWarp) {
+    const std::string deformation = folder / "shift.json", film = folder / "film";
+    write(deformation, R"({"operations": [{"group": "inner", "type": "translate", "vector": [0.05, 0, 0]}]})");
+    const ProcessResult result = cli({"animate", annulus, "--deformation", deformation, "-o", film, "--frames", "4",
+                                      "--size", "160x120", "--there-and-back", "--weights", "affine", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    EXPECT_EQ(Json::parse(result.output)["pictures"]["count"], 6);
+    const auto picture = [&](int number) { return read(film + "/annulus-000" + std::to_string(number) + ".png"); };
+    for (int number = 1; number <= 6; ++number) EXPECT_EQ(picture(number).substr(1, 3), "PNG") << number;
+    EXPECT_NE(picture(1), picture(2));
+    EXPECT_NE(picture(3), picture(4));
+    EXPECT_EQ(picture(5), picture(3));
+    EXPECT_EQ(picture(6), picture(2));
+    EXPECT_FALSE(std::filesystem::exists(film + "/annulus-0007.png"));
+    expect_bad_input({"animate", annulus, "--deformation", deformation, "-o", "/proc/film"}, "/proc/film");
+    EXPECT_EQ(cli({"animate", annulus, "--deformation", deformation, "-o", film, "--size", "161x120"}).status, 2);
+    EXPECT_EQ(cli({"animate", annulus, "--deformation", deformation, "-o", film, "--frames", "1"}).status, 2);
+}
+
 TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
     const std::string out = folder / "out.msh", bad = folder / "bad.msh", deformation = folder / "d.json";
     expect_bad_input({"quality", folder / "missing.msh"}, "missing.msh");

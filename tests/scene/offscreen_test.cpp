@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 #include <vtkGenericOpenGLRenderWindow.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
+#include <vtkPNGReader.h>
 #include <vtkRenderer.h>
 
 #include "core/base/error.h"
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_meshes.h"
 #include "ui/scene/offscreen.h"
+#include "ui/scene/picture_pixels.h"
 
 namespace curvewright {
 namespace {
@@ -64,6 +67,76 @@ TEST(Offscreen, ElementsHaveTheColourOfTheirQuality) {
             for (int x = 0; x < 180; ++x) count += is_close(image.pixel(x, y), expected);
         EXPECT_GT(count, 400) << element;
     }
+}
+
+TEST(Offscreen, ATransparentPictureLaidOnAGroundIsThePictureOnThatGround) {
+    const CurvedMesh mesh = make_ring();
+    const QualityReport report = make_report(mesh, {});
+    MeshScene scene;
+    SceneOptions options;
+    options.show_nodes = true;
+    scene.set_options(options);
+    scene.set_mesh(&mesh, &report);
+    const int width = 300, height = 220;
+    render_png(scene, width, height, output(), PictureGround::transparent);
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(output().c_str());
+    reader->Update();
+    vtkImageData* transparent = reader->GetOutput();
+    ASSERT_EQ(transparent->GetNumberOfScalarComponents(), 4);
+    const auto* rgba = static_cast<const unsigned char*>(transparent->GetScalarPointer());
+    EXPECT_EQ(scene.renderer()->GetBackground()[0], options.background[0]);
+
+    // The ground alone changes; halos and the legend's box stay white.
+    const auto on_ground = [&](const Color& ground, std::size_t pixel, std::size_t c) {
+        const double alpha = rgba[4 * pixel + 3] / 255.0;
+        return alpha * rgba[4 * pixel + c] + (1.0 - alpha) * 255.0 * ground[c];
+    };
+    render_png(scene, width, height, output());
+    const Image opaque = read_image(output());
+    int clear = 0, partly = 0, solid = 0;
+    double largest = 0.0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const std::size_t pixel = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
+            const unsigned char alpha = rgba[4 * pixel + 3];
+            ++(alpha == 0 ? clear : alpha == 255 ? solid : partly);
+            for (std::size_t c = 0; c < 3; ++c)
+                largest = std::max(largest, std::abs(on_ground(options.background, pixel, c) - opaque.pixel(x, y)[c]));
+        }
+    EXPECT_LT(largest, 2.01);
+    EXPECT_GT(clear, width * height / 5);
+    EXPECT_GT(solid, width * height / 10);
+    EXPECT_GT(partly, 200);
+    EXPECT_EQ(rgba[3], 0);  // a corner
+}
+
+TEST(Offscreen, HalfCoveredPixelsKeepTheirColour) {
+    // A line of (200, 100, 0) that covers a quarter, half and all of a pixel.
+    std::vector<unsigned char> black, white;
+    for (const double cover : {0.0, 0.25, 0.5, 1.0})
+        for (const double channel : {200.0, 100.0, 0.0}) {
+            black.push_back(static_cast<unsigned char>(std::lround(cover * channel)));
+            white.push_back(static_cast<unsigned char>(std::lround(cover * channel + (1.0 - cover) * 255.0)));
+        }
+    const PicturePixels pixels = without_ground(black.data(), white.data(), 4, 1, 1);
+    EXPECT_EQ(pixels.channels, 4);
+    EXPECT_EQ(pixels.bytes[3], 0);
+    for (std::size_t i = 1; i < 4; ++i) {
+        EXPECT_NEAR(pixels.bytes[4 * i], 200, 2);
+        EXPECT_NEAR(pixels.bytes[4 * i + 1], 100, 2);
+        EXPECT_EQ(pixels.bytes[4 * i + 2], 0);
+    }
+    EXPECT_NEAR(pixels.bytes[7], 64, 1);
+    EXPECT_NEAR(pixels.bytes[11], 128, 1);
+    EXPECT_EQ(pixels.bytes[15], 255);
+    // Two by two: covered by a half in one pixel and wholly in another.
+    const std::vector<unsigned char> black4{100, 50, 0, 200, 100, 0, 0, 0, 0, 0, 0, 0};
+    const std::vector<unsigned char> white4{228, 178, 128, 200, 100, 0, 255, 255, 255, 255, 255, 255};
+    const PicturePixels block = without_ground(black4.data(), white4.data(), 2, 2, 2);
+    EXPECT_NEAR(block.bytes[0], 200, 2);
+    EXPECT_NEAR(block.bytes[1], 100, 2);
+    EXPECT_NEAR(block.bytes[3], 96, 1);
 }
 
 TEST(Offscreen, TheSceneKeepsItsOptions) {

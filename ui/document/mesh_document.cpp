@@ -44,8 +44,7 @@ bool MeshDocument::is_deformation_applied() const {
     return deformation_ && current_.applied_deformations.contains(deformation_->file_path);
 }
 
-void MeshDocument::open(OpenedMesh opened_mesh) {
-    const bool was_dirty = is_dirty();
+void MeshDocument::replace(OpenedMesh opened_mesh) {
     {
         const QSignalBlocker blocker(history_);
         history_.clear();
@@ -57,6 +56,11 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     fields_ = opened_mesh.fields ? std::move(opened_mesh.fields) : std::make_shared<const std::vector<FieldArray>>();
     deformation_.reset();
     session_.clear();
+}
+
+void MeshDocument::open(OpenedMesh opened_mesh) {
+    const bool was_dirty = is_dirty();
+    replace(std::move(opened_mesh));
     emit opened();
     emit deformation_changed();
     emit file_path_changed();
@@ -65,6 +69,39 @@ void MeshDocument::open(OpenedMesh opened_mesh) {
     emit history_.canRedoChanged(false);
     if (was_dirty) emit dirty_changed(false);
     if (has_mesh()) record(OpenAction{file_path_.toStdString()});
+}
+
+void MeshDocument::restore(OpenedMesh opened_mesh, KeptHistory history) {
+    const bool was_dirty = is_dirty();
+    replace(std::move(opened_mesh));
+    if (!history.saved_path.isEmpty()) file_path_ = history.saved_path;
+    {
+        const QSignalBlocker blocker(history_);
+        const MeshState* before = &original_;
+        for (KeptHistory::Step& step : history.steps) {
+            auto* command =
+                new StateCommand(step.name, step.details, std::move(step.action), *before, std::move(step.state));
+            history_.push(command);
+            before = &command->after();
+        }
+        if (history.clean_index < 0) {
+            history_.resetClean();
+        } else {
+            history_.setIndex(history.clean_index);
+            history_.setClean();
+        }
+        history_.setIndex(history.index);
+    }
+    read_history();
+    emit opened();
+    emit deformation_changed();
+    emit file_path_changed();
+    // The session is still empty: what follows the history does not record this.
+    emit history_.indexChanged(history_.index());
+    emit history_.canUndoChanged(history_.canUndo());
+    emit history_.canRedoChanged(history_.canRedo());
+    session_ = std::move(history.session);
+    if (was_dirty != is_dirty()) emit dirty_changed(is_dirty());
 }
 
 void MeshDocument::close() {
@@ -92,6 +129,14 @@ std::vector<Action> MeshDocument::way_here() const {
     return way;
 }
 
+const MeshState& MeshDocument::state_at(int steps) const {
+    return steps == 0 ? original_ : static_cast<const StateCommand*>(history_.command(steps - 1))->after();
+}
+
+const Action& MeshDocument::step_action(int step) const {
+    return static_cast<const StateCommand*>(history_.command(step))->action();
+}
+
 QString MeshDocument::step_details(int step) const {
     if (step < 0 || step >= history_.count()) return {};
     return static_cast<const StateCommand*>(history_.command(step))->details();
@@ -108,7 +153,7 @@ void MeshDocument::mark_saved(const QString& file_path) {
     emit file_path_changed();
 }
 
-void MeshDocument::follow_history() {
+void MeshDocument::read_history() {
     const int index = history_.index();
     if (index == 0) {
         current_ = before_ = original_;
@@ -117,7 +162,11 @@ void MeshDocument::follow_history() {
         current_ = step->after();
         before_ = step->before();
     }
-    if (!is_applying_ && !session_.empty()) record(HistoryAction{index});
+}
+
+void MeshDocument::follow_history() {
+    read_history();
+    if (!is_applying_ && !session_.empty()) record(HistoryAction{history_.index()});
     emit state_changed();
 }
 

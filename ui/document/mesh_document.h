@@ -44,6 +44,20 @@ struct LoadedDeformation {
     QString file_path;
 };
 
+/// A history that was had elsewhere: before a crash, or in a session.
+struct KeptHistory {
+    struct Step {
+        QString name, details;
+        Action action;
+        MeshState state;  ///< after it; what the state before is follows from the order
+    };
+    std::vector<Step> steps;      ///< those done, and those that can be redone
+    int index = 0;                ///< steps done
+    int clean_index = 0;          ///< steps done in the state that is saved; -1 = none is
+    std::vector<Action> session;  ///< everything that was done, from opening on
+    QString saved_path;           ///< file that the document stands for if not the one opened; "" = that one
+};
+
 /// The open mesh, its history and the loaded deformation. Qt core (and QtGui's undo stack) only: no widgets, no VTK.
 /// All members belong to the window's thread; jobs work on copies of state(), which are immutable.
 class MeshDocument : public QObject {
@@ -78,6 +92,9 @@ class MeshDocument : public QObject {
 
     /// Replaces everything by a newly read mesh; the history and the deformation start anew.
     void open(OpenedMesh opened);
+    /// open(), with a history. pre: the states have as many nodes as the mesh, 0 <= index <= steps,
+    /// clean_index <= steps, session begins with the opening.
+    void restore(OpenedMesh opened, KeptHistory history);
     /// Back to no mesh.
     void close();
     /// Adds one step to the history: its name, as short as a list needs it, and what else there is to know about it.
@@ -88,6 +105,10 @@ class MeshDocument : public QObject {
     const std::vector<Action>& session() const { return session_; }
     /// What leads from the file to the present state, without the ways that were undone; empty without a mesh.
     std::vector<Action> way_here() const;
+    /// The state in which so many steps of the history are done; 0 = as opened. pre: 0 <= steps <= history()->count()
+    const MeshState& state_at(int steps) const;
+    /// What a step of the history (0 = the first after opening) did. pre: there is such a step.
+    const Action& step_action(int step) const;
     /// What is to be known about a step of the history (0 = the first after opening); "" = nothing.
     QString step_details(int step) const;
     void set_deformation(LoadedDeformation deformation);
@@ -110,6 +131,8 @@ class MeshDocument : public QObject {
   private:
     class StateCommand;
 
+    void replace(OpenedMesh opened);
+    void read_history();
     void follow_history();
     void record(Action action);
 

@@ -1,106 +1,13 @@
 #include "ui/jobs/mesh_jobs.h"
 
-#include <filesystem>
-
-#include <QDir>
 #include <QFileInfo>
-#include <QRegularExpression>
 
-#include "core/base/error.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
-#include "ui/document/number_format.h"
+#include "ui/jobs/mesh_state.h"
+#include "ui/jobs/operation_steps.h"
 
 namespace curvewright {
-namespace {
-
-std::filesystem::path to_path(const QString& path) {
-    return {path.toStdU16String()};
-}
-
-/// Certifies a mesh; one whose elements cannot be assessed is shown without quality, with the reason. What became of
-/// another state of the same mesh is judged with that state's orientation: turned inside out is not valid.
-MeshState make_state(CurvedMesh mesh, const TaskContext& context, const MeshState* origin = nullptr) {
-    MeshState state;
-    state.mesh = std::make_shared<const CurvedMesh>(std::move(mesh));
-    QualityOptions options;
-    if (origin != nullptr && origin->quality) options.orientation_sign = origin->quality->orientation_sign;
-    try {
-        state.quality = std::make_shared<const QualityReport>(assess_quality(*state.mesh, options, context));
-    } catch (const Unsupported& problem) {
-        state.quality_note = QString::fromUtf8(problem.what());
-    }
-    return state;
-}
-
-QString by_file(const QString& deformation_path) {
-    return MeshJobs::tr("By %1").arg(QDir::toNativeSeparators(deformation_path));
-}
-
-QString steps_text(const IncrementOptions& increments) {
-    if (increments.steps == 0) return MeshJobs::tr("automatic steps");
-    return increments.steps == 1 ? MeshJobs::tr("1 step")
-                                 : MeshJobs::tr("%1 steps").arg(format_count(increments.steps));
-}
-
-/// fraction: of the motion that was reached.
-QString warp_name(const WarpOptions& options, const std::optional<IncrementOptions>& increments, double fraction) {
-    QString name = fraction < 1.0 ? MeshJobs::tr("Warp to %1 %").arg(QString::number(100.0 * fraction, 'g', 4))
-                                  : MeshJobs::tr("Warp");
-    name += options.weighting == Weighting::elastic  ? MeshJobs::tr(", elastic body")
-            : options.weighting == Weighting::affine ? MeshJobs::tr(", affine weights")
-                                                     : MeshJobs::tr(", convex weights");
-    if (options.weighting != Weighting::elastic && options.distance_power != WarpOptions().distance_power)
-        name += MeshJobs::tr(", power %1").arg(short_number(options.distance_power));
-    if (increments) name += QStringLiteral(", ") + steps_text(*increments);
-    return name;
-}
-
-/// The options that were used, a line each for the weights and the steps.
-QString warp_details(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {
-    QString text;
-    if (options.weighting == Weighting::elastic) {
-        text = MeshJobs::tr("Poisson’s ratio %1, stiffening %2")
-                   .arg(short_number(options.poisson_ratio), short_number(options.stiffening));
-    } else {
-        text = MeshJobs::tr("Distance power %1").arg(short_number(options.distance_power));
-        if (options.neighbours == NeighbourKind::high_order) text += MeshJobs::tr(", high-order neighbours");
-        if (options.neighbours == NeighbourKind::edge_connected) text += MeshJobs::tr(", neighbours one edge away");
-    }
-    if (increments)
-        text += QLatin1Char('\n') + (increments->recomputes_weights
-                                         ? MeshJobs::tr("In %1, with new weights at every step")
-                                         : MeshJobs::tr("In %1, with the weights of the first mesh"))
-                                        .arg(steps_text(*increments));
-    return text;
-}
-
-QString describe_increments(const IncrementReport& report, const MeshTopology& topology) {
-    static const QRegularExpression minus(QStringLiteral("-(?=\\d)"));
-    return QString::fromStdString(describe(report, topology)).replace(minus, QString(QChar(0x2212)));
-}
-
-QString describe_warp(const WarpReport& report) {
-    QString text = MeshJobs::tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
-    text += report.solver == SolverChoice::direct
-                ? MeshJobs::tr(" (direct solver).")
-                : MeshJobs::tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
-    if (!report.outside_hull.empty())
-        text += MeshJobs::tr(" %1 nodes have no convex weights and took affine ones.")
-                    .arg(format_count(static_cast<long long>(report.outside_hull.size())));
-    if (!report.degenerate.empty())
-        text += MeshJobs::tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
-                    .arg(format_count(static_cast<long long>(report.degenerate.size())));
-    return text;
-}
-
-Index moved_nodes(const Coordinates& a, const Coordinates& b) {
-    Index count = 0;
-    for (Eigen::Index row = 0; row < a.rows(); ++row) count += (a.row(row) != b.row(row));
-    return count;
-}
-
-}  // namespace
 
 MeshJobs::MeshJobs(MeshDocument& document, QObject* parent) : QObject(parent), document_(document) {}
 
@@ -127,26 +34,44 @@ bool MeshJobs::open(OpenRequest request) {
                 deformed->applied_deformations << loaded->file_path;
             }
         }
-        std::optional<std::pair<MeshState, Step>> first;
-        if (request.first_step) {
-            Step step = request.first_step(*opened.state.mesh);
-            MeshState state = make_state(opened.state.mesh->with_coordinates(step.coordinates), context, &opened.state);
-            if (!step.action)
-                step.action =
-                    place_action(opened.state.mesh->topology(), opened.state.mesh->coordinates(), step.coordinates);
-            first.emplace(std::move(state), std::move(step));
-        }
-        return [this, opened = std::move(opened), loaded, deformed, first, is_start = request.is_starting_point,
+        return [this, opened = std::move(opened), loaded, deformed, is_start = request.is_starting_point,
                 then = request.then] {
             document_.open(opened);
             if (loaded) document_.set_deformation(*loaded);
             if (deformed)
                 document_.apply(tr("Deform boundary"), *deformed, DeformAction{loaded->file_path.toStdString()},
                                 by_file(loaded->file_path));
-            if (first) document_.apply(first->second.name, first->first, *first->second.action, first->second.details);
             if (is_start) document_.mark_unchanged();
             if (then) then();
             if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));
+        };
+    });
+}
+
+void MeshJobs::restore(const RestoredWork& work) {
+    document_.restore(work.opened, work.history);
+    if (work.deformation) document_.set_deformation(*work.deformation);
+}
+
+bool MeshJobs::recover(const QString& journal_path, std::function<void(const RestoredWork&)> then) {
+    return runner_.start(tr("Recovering"), [this, journal_path, then = std::move(then)](const TaskContext& context) {
+        auto work = std::make_shared<const RestoredWork>(read_lost_work(journal_path, context));
+        return [this, work, then] {
+            restore(*work);
+            then(*work);
+        };
+    });
+}
+
+bool MeshJobs::open_session(const QString& path, std::function<void()> then) {
+    const QString title = tr("Doing %1 again").arg(QFileInfo(path).fileName());
+    return runner_.start(title, [this, path, then = std::move(then)](const TaskContext& context) {
+        auto work = std::make_shared<const RestoredWork>(redo_session(path, context));
+        return [this, work, then] {
+            restore(*work);
+            then();
+            const int steps = static_cast<int>(work->history.steps.size());
+            emit note(steps == 1 ? tr("1 step was done again.") : tr("%1 steps were done again.").arg(steps));
         };
     });
 }
@@ -177,8 +102,7 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
             text += QLatin1Char(' ') + result.advice;
-        const QString details =
-            result.details.isEmpty() ? result.note : result.details + QLatin1Char('\n') + result.note;
+        const QString details = full_details(result);
         Action action =
             result.action
                 ? std::move(*result.action)
@@ -195,59 +119,17 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
 bool MeshJobs::deform() {
     if (!why_not_deform().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
-    return run_step(tr("Deforming the boundary"), true, [loaded](const CurvedMesh& mesh, const TaskContext&) {
-        Step step;
-        step.coordinates = apply_deformation(mesh, *loaded.deformation);
-        step.action = DeformAction{loaded.file_path.toStdString()};
-        step.name = tr("Deform boundary");
-        step.details = by_file(loaded.file_path);
-        step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
-                        .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
-        step.advice = tr("Untangle the elements that have tangled, or undo and warp instead.");
-        return step;
-    });
+    return run_step(tr("Deforming the boundary"), true,
+                    [loaded](const CurvedMesh& mesh, const TaskContext&) { return deform_step(mesh, loaded); });
 }
 
 bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {
     if (!why_not_warp().isEmpty()) return false;
     const LoadedDeformation loaded = *document_.deformation();
-    return run_step(
-        tr("Warping"), true, [loaded, options, increments](const CurvedMesh& mesh, const TaskContext& context) {
-            WarpOptions with_interfaces = options;
-            with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
-            Step step;
-            step.details = by_file(loaded.file_path) + QLatin1Char('\n') + warp_details(options, increments);
-            double fraction = 1.0;
-            if (increments) {
-                const BoundaryPath path = [&](double part) {
-                    return apply_deformation(mesh, *loaded.deformation, part);
-                };
-                IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context);
-                fraction = result.increments.fraction;
-                const QString way = describe_increments(result.increments, mesh.topology());
-                if (fraction == 0.0)
-                    throw SolverFailure(tr("%1 More steps or other weights may go further.").arg(way).toStdString());
-                const QString followed = describe_warp(result.report);
-                if (result.increments.is_complete()) {
-                    step.note = followed + QLatin1Char(' ') + way;
-                } else {
-                    step.note = way;
-                    step.details += QLatin1Char('\n') + followed;
-                }
-                step.coordinates = std::move(result.coordinates);
-            } else {
-                WarpResult result =
-                    curvewright::warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
-                step.note = describe_warp(result.report);
-                step.coordinates = std::move(result.coordinates);
-            }
-            step.action = WarpAction{loaded.file_path.toStdString(), options, increments};
-            step.name = warp_name(options, increments, fraction);
-            step.advice =
-                tr("Elements have tangled: undo and try automatic steps, other weights or another distance power, or "
-                   "untangle.");
-            return step;
-        });
+    return run_step(tr("Warping"), true,
+                    [loaded, options, increments](const CurvedMesh& mesh, const TaskContext& context) {
+                        return warp_step(mesh, loaded, options, increments, context);
+                    });
 }
 
 bool MeshJobs::untangle(const UntangleOptions& options) {
@@ -268,8 +150,8 @@ bool MeshJobs::flip() {
         MeshState state = make_state(flip_orientation(*start.mesh), context);
         state.applied_deformations = start.applied_deformations;
         return [this, state] {
-            document_.apply(tr("Flip numbering"), state, FlipAction{},
-                            tr("All elements are numbered the other way round."));
+            const Step step = flip_step(*state.mesh);
+            document_.apply(step.name, state, *step.action, step.details);
         };
     });
 }
@@ -294,6 +176,10 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
             emit note(told);
         };
     });
+}
+
+bool MeshJobs::write_film(FilmRequest request) {
+    return runner_.start(tr("Writing the animation"), film_work(this, std::move(request)));
 }
 
 QString MeshJobs::why_not_deform() const {

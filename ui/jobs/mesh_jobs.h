@@ -9,7 +9,9 @@
 #include "core/io/mesh_io.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
+#include "ui/jobs/film.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/jobs/restoring.h"
 #include "ui/jobs/untangling.h"
 
 namespace curvewright {
@@ -22,8 +24,6 @@ struct OpenRequest {
     bool apply_deformation = false;
     /// The mesh with the deformation applied is where the user starts, and not yet a change to be saved.
     bool is_starting_point = false;
-    /// Makes the first step of the history of the mesh that was read; null = none. Called on the worker's thread.
-    std::function<Step(const CurvedMesh& mesh)> first_step;
     /// Called on the window's thread when the mesh is there, before finished().
     std::function<void()> then;
 };
@@ -42,6 +42,11 @@ class MeshJobs : public QObject {
     const JobRunner& runner() const { return runner_; }
 
     bool open(OpenRequest request);
+    /// Opens what a journal has kept: the mesh with its whole history, every state certified anew. then: called on the
+    /// window's thread when the document has it, with how much of the journal it is.
+    bool recover(const QString& journal_path, std::function<void(const RestoredWork&)> then);
+    /// Opens the mesh of a session and does again what led to its end, in the history. then: like OpenRequest::then.
+    bool open_session(const QString& path, std::function<void()> then);
     bool load_deformation(const QString& path);
     /// Moves the boundary as the loaded deformation says; the interior stays.
     bool deform();
@@ -56,6 +61,9 @@ class MeshJobs : public QObject {
     /// file becomes the document's own.
     bool write(const QString& path, std::optional<MeshFormat> format, bool mark_saved);
 
+    /// Writes the pictures of a film; the document stays.
+    bool write_film(FilmRequest request);
+
     /// Why the operation cannot run on the present state, as a sentence; empty if it can.
     QString why_not_deform() const;
     QString why_not_warp() const;
@@ -66,6 +74,7 @@ class MeshJobs : public QObject {
     void note(const QString& text);
 
   private:
+    void restore(const RestoredWork& work);
     /// can_keep: where the context says stop, the step returns the best it has instead of throwing.
     bool run_step(const QString& title, bool applies_deformation,
                   std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false);

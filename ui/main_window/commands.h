@@ -14,10 +14,12 @@ namespace curvewright {
 enum class CommandId {
     open,
     load_deformation,
+    open_session,
     save,
     save_as,
     export_mesh,
     save_picture,
+    export_film,
     save_session,
     close_mesh,
     quit,
@@ -55,6 +57,8 @@ enum class CommandId {
     look_top,
     look_bottom,
     look_isometric,
+    bookmark_add,
+    bookmark_edit,
     edges,
     nodes,
     legend,
@@ -76,7 +80,7 @@ enum class CommandId {
 };
 
 /// Where a command stands in the menu bar.
-enum class CommandMenu { file, edit, select, mesh, view, look, theme, help };
+enum class CommandMenu { file, edit, select, mesh, view, look, bookmarks, theme, help };
 
 /// One command of the window. Menus, tool bar, tool tips, the page of shortcuts and the tests all read commands().
 struct Command {

@@ -5,6 +5,7 @@
 #include <QDialogButtonBox>
 #include <QFileDialog>
 #include <QGridLayout>
+#include <QInputDialog>
 #include <QKeySequence>
 #include <QLabel>
 #include <QMessageBox>
@@ -71,6 +72,12 @@ Dialogs Dialogs::standard() {
     };
     dialogs.ask_unsaved = ask_with_box;
     dialogs.ask_recover = ask_recover_with_box;
+    dialogs.choose_folder = [](QWidget* parent, const QString& title, const QString& folder) {
+        return QFileDialog::getExistingDirectory(parent, title, folder);
+    };
+    dialogs.ask_text = [](QWidget* parent, const QString& title, const QString& label, const QString& text) {
+        return QInputDialog::getText(parent, title, label, QLineEdit::Normal, text);
+    };
     dialogs.show_error = show_error_box;
     return dialogs;
 }
@@ -107,6 +114,7 @@ void show_shortcuts(QWidget* parent) {
             keys << QKeySequence(key, QKeySequence::PortableText).toString(QKeySequence::NativeText);
         if (!keys.isEmpty()) add(keys.join(tr(" or ")), help_text(command));
     }
+    add(tr("Ctrl+1 … Ctrl+9"), tr("Go to a bookmark of the view"));
     grid->setColumnStretch(1, 1);
     auto* scroll = new QScrollArea;
     scroll->setWidgetResizable(true);

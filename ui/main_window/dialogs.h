@@ -22,6 +22,10 @@ struct Dialogs {
     /// Whether work that a crash has left is to be recovered, thrown away, or kept for another time (cancel).
     std::function<UnsavedAnswer(QWidget* parent, const QString& message)> ask_recover;
     std::function<UnsavedAnswer(QWidget* parent, const QString& file_name)> ask_unsaved;
+    /// An existing folder; "" = the user gave up.
+    std::function<QString(QWidget* parent, const QString& title, const QString& folder)> choose_folder;
+    /// One line of text; "" = the user gave up.
+    std::function<QString(QWidget* parent, const QString& title, const QString& label, const QString& text)> ask_text;
     /// Tells and returns at once; the message stays until it is closed.
     std::function<void(QWidget* parent, const QString& title, const QString& message)> show_error;
 

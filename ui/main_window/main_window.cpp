@@ -79,6 +79,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_editing();
     connect_colors();
     connect_session();
+    connect_views();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
         if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
@@ -243,13 +244,14 @@ void MainWindow::show_state() {
 }
 
 void MainWindow::update_title() {
-    setWindowModified(document_.is_dirty());
     setWindowTitle(document_.has_mesh() ? tr("%1[*] – Curvewright").arg(document_.file_name()) : tr("Curvewright"));
+    setWindowModified(document_.is_dirty());
 }
 
 void MainWindow::update_commands() {
     const bool is_idle = !jobs_.runner().is_running() && !drag_.is_active(), has_mesh = document_.has_mesh();
-    for (const CommandId id : {CommandId::open, CommandId::load_deformation}) actions_[id]->setEnabled(is_idle);
+    for (const CommandId id : {CommandId::open, CommandId::load_deformation, CommandId::open_session})
+        actions_[id]->setEnabled(is_idle);
     actions_[CommandId::load_deformation]->setEnabled(is_idle && has_mesh);
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::save_session,
                                CommandId::copy_command, CommandId::close_mesh})
@@ -264,6 +266,8 @@ void MainWindow::update_commands() {
     actions_[CommandId::clip]->setEnabled(is_3d);
     actions_[CommandId::orthographic]->setEnabled(is_3d);
     actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
+    actions_[CommandId::bookmark_add]->setEnabled(has_mesh);
+    actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh && document_.history()->index() > 0);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
     actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());

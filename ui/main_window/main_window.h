@@ -11,6 +11,7 @@
 #include "ui/document/mesh_document.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
+#include "ui/document/view_bookmarks.h"
 #include "ui/jobs/element_numbers.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
@@ -59,14 +60,13 @@ class MainWindow : public QMainWindow {
     QAction* action(CommandId id) const { return actions_[id]; }
 
     /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is
-    /// loaded as a deformation of the open mesh. apply: also apply the deformation to the boundary.
+    /// loaded as a deformation of the open mesh, unless it is a session: that is done again. apply: also apply the
+    /// deformation to the boundary.
     void open_file(const QString& path, const QString& deformation_path = {}, bool apply = false);
     void open_sample(const Sample& sample);
     const SampleCatalog& samples() const { return samples_; }
     /// Brings up a tab of the right panel: "edit", "inspect", "deform", "warp" or "untangle".
     void show_tab(const QString& name);
-    /// Writes what the view shows, at `scale` times its size; tells the user if that fails.
-    bool save_picture(const QString& path, int scale);
 
   protected:
     void closeEvent(QCloseEvent* event) override;
@@ -134,6 +134,15 @@ class MainWindow : public QMainWindow {
     void connect_session();
     void offer_lost_work();
     void recover(const LostWork& lost);
+    void open_session(const QString& path);
+    void ask_open_session();
+
+    // main_window_views.cpp
+    void connect_views();
+    void fill_bookmarks_menu();
+    void add_bookmark();
+    void go_to_bookmark(int number);
+    void ask_export_film();
 
     // main_window_files.cpp
     void ask_open();
@@ -146,6 +155,9 @@ class MainWindow : public QMainWindow {
     /// Runs next now, or after the user has saved the changes or given them up; not at all if the user cancels.
     void when_settled(std::function<void()> next);
     QString suggested_path(const QString& suffix) const;
+    /// Where file dialogs begin.
+    static QString last_folder();
+    static void remember_folder(const QString& path);
 
     Theme& theme_;
     Dialogs dialogs_;
@@ -156,6 +168,7 @@ class MainWindow : public QMainWindow {
     ElementNumbers element_numbers_;
     RecentFiles recent_;
     SampleCatalog samples_;
+    ViewBookmarks bookmarks_;
     std::unique_ptr<Journal> journal_;
     CommandActions actions_;
 
@@ -180,7 +193,8 @@ class MainWindow : public QMainWindow {
     QualityPanel* quality_panel_ = nullptr;
     QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
-    QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr;
+    QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
+    QList<QAction*> bookmark_actions_;
 
     /// What the colours show of the elements, if it is computed; null = not yet.
     std::shared_ptr<const FieldArray> numbers_now_, numbers_before_;

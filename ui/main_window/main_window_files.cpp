@@ -2,15 +2,15 @@
 #include <QDir>
 #include <QDragEnterEvent>
 #include <QFileInfo>
-#include <QImageWriter>
 #include <QMimeData>
-#include <QSaveFile>
 #include <QSettings>
 #include <QStandardPaths>
 #include <QStatusBar>
 
+#include "core/session/session_file.h"
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/main_window/picture_dialog.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/untangle_panel.h"
@@ -53,14 +53,6 @@ bool is_deformation_file(const QString& path) {
     return suffix == QLatin1String("json") || suffix == QLatin1String("csv");
 }
 
-QString last_folder() {
-    return QSettings().value(QStringLiteral("last_folder"), QDir::homePath()).toString();
-}
-
-void remember_folder(const QString& path) {
-    QSettings().setValue(QStringLiteral("last_folder"), QFileInfo(path).absolutePath());
-}
-
 QString first_file(const QMimeData* data) {
     for (const QUrl& url : data->urls())
         if (url.isLocalFile()) return url.toLocalFile();
@@ -68,6 +60,14 @@ QString first_file(const QMimeData* data) {
 }
 
 }  // namespace
+
+QString MainWindow::last_folder() {
+    return QSettings().value(QStringLiteral("last_folder"), QDir::homePath()).toString();
+}
+
+void MainWindow::remember_folder(const QString& path) {
+    QSettings().setValue(QStringLiteral("last_folder"), QFileInfo(path).absolutePath());
+}
 
 bool MainWindow::is_busy() {
     // A hand that is still on the mesh lets go of it.
@@ -100,6 +100,10 @@ void MainWindow::when_settled(std::function<void()> next) {
 
 void MainWindow::open_file(const QString& path, const QString& deformation_path, bool apply) {
     if (is_busy()) return;
+    if (is_session_file(path.toStdU16String())) {
+        open_session(path);
+        return;
+    }
     if (is_deformation_file(path)) {
         load_deformation(path);
         return;
@@ -139,6 +143,10 @@ void MainWindow::open_sample(const Sample& sample) {
 
 void MainWindow::load_deformation(const QString& path) {
     if (is_busy()) return;
+    if (is_session_file(path.toStdU16String())) {
+        open_session(path);
+        return;
+    }
     if (!document_.has_mesh()) {
         dialogs_.show_error(
             this, tr("No mesh is open"),
@@ -204,35 +212,30 @@ void MainWindow::ask_export() {
 
 void MainWindow::ask_save_picture() {
     if (!document_.has_mesh()) return;
-    const QString once = tr("PNG as large as the view (*.png)"), twice = tr("PNG twice as large (*.png)");
-    QString selected;
-    QString path = dialogs_.save_file(this, tr("Save a picture"), suggested_path(QStringLiteral("png")),
-                                      once + QStringLiteral(";;") + twice, selected);
-    if (path.isEmpty()) return;
-    if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
-    remember_folder(path);
-    save_picture(path, selected == twice ? 2 : 1);
-}
-
-bool MainWindow::save_picture(const QString& path, int scale) {
-    const QImage image = view_->picture(scale);
-    QSaveFile file(path);
-    const QString title = tr("The picture was not saved");
-    if (image.isNull()) {
-        dialogs_.show_error(this, title, tr("The view could not be drawn at %1 times its size.").arg(scale));
-        return false;
+    if (auto* open = findChild<PictureDialog*>()) {
+        open->activateWindow();
+        return;
     }
-    if (!file.open(QIODevice::WriteOnly)) {
-        dialogs_.show_error(this, title, tr("%1: cannot be written: %2.").arg(path, file.errorString()));
-        return false;
-    }
-    QImageWriter writer(&file, "png");
-    if (!writer.write(image) || !file.commit()) {
-        dialogs_.show_error(this, title, tr("%1: cannot be written: %2.").arg(path, writer.errorString()));
-        return false;
-    }
-    statusBar()->showMessage(tr("Wrote %1 (%2 × %3 pixels).").arg(path).arg(image.width()).arg(image.height()), 8000);
-    return true;
+    auto* dialog = new PictureDialog(
+        *view_,
+        [this] {
+            QString selected;
+            const QString path = dialogs_.save_file(this, tr("Save a picture"), suggested_path(QStringLiteral("png")),
+                                                    tr("PNG (*.png)"), selected);
+            if (!path.isEmpty()) remember_folder(path);
+            return path;
+        },
+        this);
+    connect(&document_, &MeshDocument::opened, dialog, &QDialog::reject);
+    connect(dialog, &PictureDialog::failed, this,
+            [this](const QString& message) { dialogs_.show_error(this, tr("The picture was not saved"), message); });
+    connect(dialog, &PictureDialog::saved, this, [this](const QString& path, QSize size) {
+        const QString pixels = tr("%1 × %2 pixels").arg(size.width()).arg(size.height());
+        statusBar()->showMessage(path.isEmpty() ? tr("The picture is on the clipboard (%1).").arg(pixels)
+                                                : tr("Wrote %1 (%2).").arg(path, pixels),
+                                 8000);
+    });
+    dialog->show();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -59,6 +59,7 @@ void MainWindow::build_menus() {
     menus[CommandMenu::mesh] = menuBar()->addMenu(tr("&Mesh"));
     menus[CommandMenu::help] = menuBar()->addMenu(tr("&Help"));
     menus[CommandMenu::look] = new QMenu(tr("Look &from"), this);
+    menus[CommandMenu::bookmarks] = bookmarks_menu_ = new QMenu(tr("&Bookmarks"), this);
     menus[CommandMenu::theme] = new QMenu(tr("&Theme"), this);
     recent_menu_ = new QMenu(tr("Open &recent"), this);
     samples_menu_ = new QMenu(tr("Sa&mples"), this);
@@ -77,7 +78,9 @@ void MainWindow::build_menus() {
             menu->addMenu(samples_menu_);
         }
         if (command.id == CommandId::fit) menu->addMenu(menus.at(CommandMenu::look));
+        if (command.id == CommandId::fit_selection) menu->addMenu(bookmarks_menu_);
     }
+    bookmarks_menu_->addSeparator();
     auto* themes = new QActionGroup(this);
     for (const CommandId id : {CommandId::theme_system, CommandId::theme_light, CommandId::theme_dark})
         themes->addAction(actions_[id]);

@@ -36,6 +36,7 @@ void MainWindow::connect_session() {
             tr("Wrote %1 (%2 actions).").arg(path, format_count(static_cast<long long>(document_.session().size()))),
             8000);
     });
+    connect(actions_[CommandId::open_session], &QAction::triggered, this, &MainWindow::ask_open_session);
     // When the window is there, and not before whatever the command line asks to open.
     QTimer::singleShot(0, this, &MainWindow::offer_lost_work);
 }
@@ -61,21 +62,30 @@ void MainWindow::offer_lost_work() {
 void MainWindow::recover(const LostWork& lost) {
     if (is_busy()) return;
     when_settled([this, lost] {
-        OpenRequest request;
-        request.mesh_path = lost.mesh_path;
-        request.first_step = [lost](const CurvedMesh& mesh) {
-            Step step;
-            step.coordinates = Journal::read_positions(lost, mesh.topology().node_count());
-            step.name = tr("Recovered work");
-            step.details = lost.steps.join(QLatin1Char('\n'));
-            return step;
-        };
-        request.then = [this, lost] {
-            journal_->discard(lost);
-            statusBar()->showMessage(tr("Recovered; save it to keep it."), 12000);
-        };
-        jobs_.open(request);
+        jobs_.recover(lost.path, [this, lost](const RestoredWork& work) {
+            journal_->take_over(lost, work.intact_bytes, work.records);
+            const QString saved = tr("Recovered with its history; save it to keep it.");
+            statusBar()->showMessage(work.remark.isEmpty() ? saved : work.remark + QLatin1Char(' ') + saved, 12000);
+        });
     });
+}
+
+void MainWindow::open_session(const QString& path) {
+    if (is_busy()) return;
+    when_settled([this, path] {
+        jobs_.open_session(path, [this, path] {
+            recent_.add(path);
+            remember_folder(path);
+        });
+    });
+}
+
+void MainWindow::ask_open_session() {
+    if (is_busy()) return;
+    const QString path =
+        dialogs_.open_file(this, tr("Open a session"), last_folder(), tr("Sessions (*.json);;All files (*)"));
+    if (path.isEmpty()) return;
+    open_session(path);
 }
 
 }  // namespace curvewright

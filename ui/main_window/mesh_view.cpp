@@ -25,8 +25,8 @@
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
 
+#include "ui/main_window/picture_drawing.h"
 #include "ui/tools/tool.h"
 
 namespace curvewright {
@@ -217,6 +217,32 @@ void MeshView::fly_to(Index element) {
     fly([this, element] { parts_->scene.focus_element(element); });
 }
 
+ViewPose MeshView::pose() const {
+    const WorldFrame& frame = parts_->scene.world_frame();
+    const CameraPose camera = CameraPose::of(parts_->scene.renderer()->GetActiveCamera());
+    ViewPose pose{{}, {}, camera.up, camera.scale * frame.size};
+    for (std::size_t i = 0; i < 3; ++i) {
+        pose.position[i] = camera.position[i] * frame.size + frame.origin[static_cast<Eigen::Index>(i)];
+        pose.focus[i] = camera.focus[i] * frame.size + frame.origin[static_cast<Eigen::Index>(i)];
+    }
+    return pose;
+}
+
+void MeshView::fly_to(const ViewPose& pose) {
+    fly([&] {
+        const WorldFrame& frame = parts_->scene.world_frame();
+        vtkCamera* camera = parts_->scene.renderer()->GetActiveCamera();
+        CameraPose target = CameraPose::of(camera);
+        for (std::size_t i = 0; i < 3; ++i) {
+            target.position[i] = (pose.position[i] - frame.origin[static_cast<Eigen::Index>(i)]) / frame.size;
+            target.focus[i] = (pose.focus[i] - frame.origin[static_cast<Eigen::Index>(i)]) / frame.size;
+        }
+        target.up = pose.up;
+        target.scale = pose.scale / frame.size;
+        target.apply(camera);
+    });
+}
+
 void MeshView::fit_to(const Eigen::RowVector3d& center, double radius) {
     fly([&] { parts_->scene.focus_ball(center, radius); });
 }
@@ -228,9 +254,12 @@ void MeshView::fly(const std::function<void()>& set) {
     const CameraPose start = CameraPose::of(renderer->GetActiveCamera());
     set();
     const CameraPose end = CameraPose::of(renderer->GetActiveCamera());
+    // The animation does not tell its first value if it stood there before.
+    start.apply(renderer->GetActiveCamera());
     parts.flight.disconnect(this);
     connect(&parts.flight, &QVariantAnimation::valueChanged, this, [this, renderer, start, end](const QVariant& value) {
-        between(start, end, value.toDouble()).apply(renderer->GetActiveCamera());
+        const double way = value.toDouble();
+        (way < 1.0 ? between(start, end, way) : end).apply(renderer->GetActiveCamera());
         renderer->ResetCameraClippingRange();
         request_frame();
     });
@@ -241,32 +270,37 @@ void MeshView::fly(const std::function<void()>& set) {
 }
 
 QImage MeshView::picture(int scale) {
+    return picture(PictureOptions{.size = scale * device_size(), .is_smooth = false});
+}
+
+QImage MeshView::picture(const PictureOptions& options) {
     Parts& parts = *parts_;
     if (!parts.window->GetReadyForRendering()) return {};
+    const int largest = largest_picture_side();
+    if (!why_no_picture(options.size, largest).isEmpty()) return {};
     makeCurrent();
     finish_frame_behind();
-    const std::array<int, 2> shown{parts.window->GetSize()[0], parts.window->GetSize()[1]};
-    const int width = shown[0] * scale, height = shown[1] * scale;
-    SceneOptions enlarged = parts.options;
-    enlarged.pixel_ratio *= scale;
-    parts.scene.set_options(enlarged);
-    parts.window->SetSize(width, height);
-    vtkOpenGLState* state = parts.window->GetState();
-    state->Reset();
-    state->Push();
-    state->vtkglDepthFunc(GL_LEQUAL);
-    parts.window->Render();
-    state->Pop();
-    vtkNew<vtkUnsignedCharArray> pixels;
-    const bool is_read = parts.window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels.Get(), 0) != 0;
-    QImage image;
-    if (is_read && pixels->GetNumberOfValues() == vtkIdType(3) * width * height)
-        image = QImage(pixels->GetPointer(0), width, height, 3 * width, QImage::Format_RGB888).mirrored();
-    parts.scene.set_options(parts.options);
-    parts.window->SetSize(shown[0], shown[1]);
+    QImage image = draw_picture(parts.scene, parts.window, parts.options, device_size(), options, largest);
     doneCurrent();
     request_frame();
     return image;
+}
+
+int MeshView::largest_picture_side() {
+    makeCurrent();
+    const int side = curvewright::largest_picture_side();
+    doneCurrent();
+    return side;
+}
+
+QSize MeshView::device_size() const {
+    const int* size = parts_->window->GetSize();
+    return {size[0], size[1]};
+}
+
+void MeshView::lend_view(MeshScene& scene) const {
+    scene.set_mesh(parts_->state.mesh.get(), parts_->state.quality.get());
+    scene.copy_view(parts_->scene, true);
 }
 
 void MeshView::initializeGL() {

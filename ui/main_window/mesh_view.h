@@ -8,12 +8,14 @@
 #include <QOpenGLWidget>
 
 #include "ui/document/mesh_document.h"
+#include "ui/document/view_bookmarks.h"
 #include "ui/scene/mesh_scene.h"
 #include "ui/tools/canvas.h"
 
 namespace curvewright {
 
 class Tool;
+struct PictureOptions;
 
 /// When a view waits for its picture.
 enum class DrawingMode {
@@ -60,11 +62,21 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void follow_camera(const MeshView& other);
     /// Moves the camera to an element within 200 ms.
     void fly_to(Index element);
+    /// Where the camera is, and moving it to where one was within 200 ms. They belong to a mesh that is shown.
+    ViewPose pose() const;
+    void fly_to(const ViewPose& pose);
     /// Moves the camera so that a ball fills the view; radius 0: a little of the mesh around the point.
     void fit_to(const Eigen::RowVector3d& center, double radius);
 
     /// What the view shows, drawn anew at `scale` times its size in device pixels. Null if nothing can be drawn.
     QImage picture(int scale);
+    /// The same at any size. Null if nothing can be drawn; why_no_picture() of the largest side may tell why.
+    QImage picture(const PictureOptions& options);
+    /// What the graphics can draw, pixels.
+    int largest_picture_side();
+    QSize device_size() const;
+    /// Shows in another scene what this view shows, from the same place.
+    void lend_view(MeshScene& scene) const;
 
     bool is_flat() const override;
     QSize view_size() const override { return size(); }

@@ -104,6 +104,15 @@ void ClipBar::show_layer(double position) {
                                          : static_cast<int>(std::ceil(step + rounding)));
 }
 
+void ClipBar::set_setting(const ClipSetting& setting) {
+    if (QAbstractButton* button = axes_->button(setting.axis)) button->setChecked(true);
+    flip_->setChecked(setting.is_flipped);
+    styles_->button(setting.is_through ? 1 : 0)->setChecked(true);
+    slider_->setValue(static_cast<int>(std::lround(setting.position * slider_->maximum())));
+    exact_position_ = setting.position;
+    emit changed();
+}
+
 ClipSetting ClipBar::setting() const {
     return {axes_->checkedId(), flip_->isChecked(),
             exact_position_.value_or(slider_->value() / double(slider_->maximum())), styles_->checkedId() == 1};

@@ -27,6 +27,7 @@ class ClipBar : public QWidget {
   public:
     explicit ClipBar(const Theme& theme, QWidget* parent = nullptr);
     ClipSetting setting() const;
+    void set_setting(const ClipSetting& setting);
     /// Moves the plane to what lies at `position` along the axis (a fraction of the mesh's extent): exactly, if it cuts
     /// through; else at most a step of the slider farther, so that it is just not hidden.
     void show_layer(double position);

@@ -198,6 +198,29 @@ void CameraControl::update_projection() {
     renderer_->GetActiveCamera()->SetWindowCenter(right_margin_ / viewport()[0], 0.0);
 }
 
+CameraState CameraControl::state() const {
+    vtkCamera* camera = renderer_->GetActiveCamera();
+    CameraState state;
+    camera->GetPosition(state.position.data());
+    camera->GetFocalPoint(state.focus.data());
+    camera->GetViewUp(state.up.data());
+    state.scale = camera->GetParallelScale();
+    state.keeps_fitted = keeps_fitted_ && fitted_camera_time_ == camera->GetMTime();
+    state.fitted_size = fitted_size_;
+    state.fitted_margin = fitted_margin_;
+    return state;
+}
+
+void CameraControl::set_state(const CameraState& state) {
+    vtkCamera* camera = renderer_->GetActiveCamera();
+    place(camera, vector(state.focus.data()), vector(state.position.data()), vector(state.up.data()));
+    camera->SetParallelScale(state.scale);
+    keeps_fitted_ = state.keeps_fitted;
+    fitted_size_ = state.fitted_size;
+    fitted_margin_ = state.fitted_margin;
+    fitted_camera_time_ = camera->GetMTime();
+}
+
 void CameraControl::prepare_frame() {
     vtkCamera* camera = renderer_->GetActiveCamera();
     if (fitted_camera_time_ != camera->GetMTime()) keeps_fitted_ = false;

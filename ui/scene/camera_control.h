@@ -8,6 +8,15 @@
 
 namespace curvewright {
 
+/// All that there is to know about where a camera is, so that it can be put back there. World points.
+struct CameraState {
+    std::array<double, 3> position{}, focus{}, up{};
+    double scale = 1.0;         ///< half the height of the view, in parallel projection
+    bool keeps_fitted = false;  ///< nobody has moved it since it was fitted: that is done again for another window
+    std::array<int, 2> fitted_size{0, 0};  ///< of the window that it was fitted to
+    double fitted_margin = 0.0;
+};
+
 /// The camera of one renderer: fits the view, keeps it fitted while the window changes its size and nobody has moved
 /// the camera, pans, zooms and turns. All points are world points.
 class CameraControl {
@@ -37,6 +46,9 @@ class CameraControl {
     /// factor > 1 comes closer; the point under the mouse stays there. depth: of that point (-1..1); focal plane if
     /// none.
     void zoom(double factor, double x, double y, const std::optional<double>& depth);
+
+    CameraState state() const;
+    void set_state(const CameraState& state);
 
     /// Before every frame: refits after a change of the window's size, sets the clipping range.
     void prepare_frame();

@@ -631,6 +631,18 @@ std::vector<Index> MeshScene::elements_inside(const std::vector<std::array<doubl
     return pick_elements_inside(parts_->drawn(), parts_->frame, parts_->view(), polygon, !is_flat() && !see_through);
 }
 
+CameraState MeshScene::camera_state() const {
+    return parts_->camera.state();
+}
+
+void MeshScene::set_camera_state(const CameraState& state) {
+    parts_->camera.set_state(state);
+}
+
+const WorldFrame& MeshScene::world_frame() const {
+    return parts_->frame;
+}
+
 void MeshScene::copy_view(const MeshScene& other, bool is_exact) {
     if (!parts_->mesh || !other.parts_->mesh) return;
     parts_->camera.copy_view(other.parts_->camera, other.parts_->frame, parts_->frame, is_exact);

@@ -12,11 +12,14 @@
 #include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/coloring.h"
+#include "ui/scene/view_metrics.h"
 
 class vtkRenderer;
 class vtkRenderWindowInteractor;
 
 namespace curvewright {
+
+struct CameraState;
 
 /// What a clip plane takes away: the elements whose centre is on its positive side, or all that is there, through the
 /// elements.
@@ -92,6 +95,12 @@ class MeshScene {
 
     /// Whether anything of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
+
+    /// Where the camera is, to be put back there.
+    CameraState camera_state() const;
+    void set_camera_state(const CameraState& state);
+    /// Where the camera's world lies in the mesh's space.
+    const WorldFrame& world_frame() const;
 
     /// Takes over the view of another scene that shows the same mesh or another state of it. One that is kept fitted to
     /// the window is kept fitted to this scene's own; is_exact: the camera is where the other one is, and stays there.

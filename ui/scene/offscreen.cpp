@@ -6,6 +6,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <vector>
 
 #include <fmt/format.h>
 #include <vtkCallbackCommand.h>
@@ -16,11 +17,13 @@
 #include <vtkOpenGLState.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "ui/scene/egl_context.h"
+#include "ui/scene/picture_pixels.h"
 #include "ui/scene/quiet_output.h"
 
 namespace curvewright {
@@ -28,11 +31,6 @@ namespace {
 
 constexpr int max_side = 8192;        ///< of what is asked for
 constexpr int max_drawn_side = 8192;  ///< of what is drawn before averaging, where the picture allows it
-
-struct Pixels {
-    int width = 0, height = 0;
-    vtkNew<vtkUnsignedCharArray> rgb;  ///< 3 per pixel, rows from the bottom
-};
 
 /// A render window on a context of ours. GLEW looks for an X display after it has loaded all functions of OpenGL, and
 /// VTK gives up when GLEW finds none; what VTK would have done next is done here.
@@ -56,7 +54,9 @@ class EglRenderWindow : public vtkGenericOpenGLRenderWindow {
 };
 vtkStandardNewMacro(EglRenderWindow);
 
-void draw(MeshScene& scene, int width, int height, Pixels& pixels) {
+/// On grounds of the given colours, one picture each: 3 bytes per pixel, rows from the bottom.
+std::vector<vtkSmartPointer<vtkUnsignedCharArray>> draw(MeshScene& scene, int width, int height,
+                                                        const std::vector<Color>& grounds) {
     EglContext context;
     vtkNew<EglRenderWindow> window;
     vtkNew<vtkCallbackCommand> make_current, is_current;
@@ -75,33 +75,17 @@ void draw(MeshScene& scene, int width, int height, Pixels& pixels) {
     window->OpenGLInitContext();
     window->SetFrameBlitModeToNoBlit();
     window->AddRenderer(scene.renderer());
-    window->Render();
-    pixels.width = width;
-    pixels.height = height;
-    window->GetPixelData(0, 0, width - 1, height - 1, 0, pixels.rgb, 0);
+    std::vector<vtkSmartPointer<vtkUnsignedCharArray>> pictures;
+    for (const Color& ground : grounds) {
+        scene.renderer()->SetBackground(ground[0], ground[1], ground[2]);
+        window->Render();
+        pictures.push_back(vtkSmartPointer<vtkUnsignedCharArray>::New());
+        window->GetPixelData(0, 0, width - 1, height - 1, 0, pictures.back(), 0);
+    }
     window->RemoveRenderer(scene.renderer());
     scene.renderer()->SetRenderWindow(nullptr);
     window->Finalize();
-}
-
-/// Mean of blocks of factor × factor pixels.
-void average(const Pixels& from, int factor, vtkImageData* image) {
-    const int width = from.width / factor, height = from.height / factor;
-    image->SetDimensions(width, height, 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
-    auto* to = static_cast<unsigned char*>(image->GetScalarPointer());
-    const unsigned char* source = from.rgb->GetPointer(0);
-    const int count = factor * factor;
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x)
-            for (int c = 0; c < 3; ++c) {
-                int sum = count / 2;
-                for (int dy = 0; dy < factor; ++dy)
-                    for (int dx = 0; dx < factor; ++dx)
-                        sum +=
-                            source[3 * (static_cast<std::size_t>(y * factor + dy) * from.width + x * factor + dx) + c];
-                *to++ = static_cast<unsigned char>(sum / count);
-            }
+    return pictures;
 }
 
 /// Scales the lines and texts of a scene for as long as it lives.
@@ -123,29 +107,38 @@ class ScaledOptions {
 
 }  // namespace
 
-void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file) {
+void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file, PictureGround ground) {
     if (width < 1 || height < 1 || width > max_side || height > max_side)
         throw Unsupported(fmt::format("A picture of {}×{} pixels cannot be drawn; 1×1 to {}×{} can.", width, height,
                                       max_side, max_side));
     if (scene.renderer()->GetRenderWindow())
         throw Unsupported("The scene is shown in a window and cannot be drawn without one at the same time.");
     const int factor = 2 * std::max(width, height) <= max_drawn_side ? 2 : 1;
-    Pixels pixels;
+    const bool is_transparent = ground == PictureGround::transparent;
+    const std::vector<Color> grounds =
+        is_transparent ? std::vector<Color>{{0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}} : std::vector{scene.options().background};
+    std::vector<vtkSmartPointer<vtkUnsignedCharArray>> drawn;
     {
         const ScaledOptions scaled(scene, factor);
         std::exception_ptr failure;
         // A thread of its own has no current context of somebody else's (a toolkit's) that ours could disturb.
         std::thread([&] {
             try {
-                draw(scene, factor * width, factor * height, pixels);
+                drawn = draw(scene, factor * width, factor * height, grounds);
             } catch (...) {
                 failure = std::current_exception();
             }
         }).join();
         if (failure) std::rethrow_exception(failure);
     }
+    const PicturePixels pixels =
+        is_transparent
+            ? without_ground(drawn[0]->GetPointer(0), drawn[1]->GetPointer(0), factor * width, factor * height, factor)
+            : average(drawn[0]->GetPointer(0), factor * width, factor * height, factor);
     vtkNew<vtkImageData> image;
-    average(pixels, factor, image);
+    image->SetDimensions(width, height, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);
+    std::copy(pixels.bytes.begin(), pixels.bytes.end(), static_cast<unsigned char*>(image->GetScalarPointer()));
     AtomicFile target(file);
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName(target.path().c_str());

@@ -1,0 +1,130 @@
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/cli/command.h"
+#include "app/cli/output.h"
+#include "app/cli/warp_options.h"
+#include "core/base/error.h"
+#include "core/io/deformation_file.h"
+#include "core/session/frames.h"
+#include "ui/scene/offscreen.h"
+
+namespace curvewright::cli {
+namespace {
+
+struct Options {
+    std::filesystem::path mesh, deformation, folder;
+    int frames = 60;
+    int width = 1920, height = 1080;
+    bool goes_back = false, shows_legend = true, is_transparent = false;
+    WarpOptions warp;
+};
+
+/// "WxH", both even, as videos need it.
+std::string parse_size(const std::string& text, Options& options) {
+    int width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 16 || height < 16 ||
+        width > 8192 || height > 8192 || width % 2 != 0 || height % 2 != 0)
+        return "expected WIDTHxHEIGHT in pixels, even numbers from 16 to 8192, as in 1920x1080";
+    options.width = width;
+    options.height = height;
+    return {};
+}
+
+std::filesystem::path file_of(const Options& options, int number) {
+    return options.folder / fmt::format("{}-{:04}.png", options.mesh.stem().string(), number);
+}
+
+int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    const Stopwatch watch;
+    Json timings = Json::object();
+    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+    auto deformation = std::make_shared<const Deformation>(read_deformation(options.deformation, context));
+    std::optional<double> sign;
+    if (is_assessable(mesh)) sign = certify(mesh, context, timings).orientation_sign;
+    WarpOptions warp_options = options.warp;
+    warp_options.prescribed_nodes = prescribed_interior_nodes(mesh, *deformation);
+    const CurvedMesh end =
+        mesh.with_coordinates(warp(mesh, apply_deformation(mesh, *deformation), warp_options, context).coordinates);
+    MotionFrames film(end, sign, {{"Warp", mesh.coordinates(), end.coordinates(), deformation, options.warp}},
+                      options.frames);
+    std::error_code error;
+    std::filesystem::create_directories(options.folder, error);
+    if (error)
+        throw InvalidInput(options.folder.string(), 0, fmt::format("the folder cannot be made ({}).", error.message()));
+
+    MeshScene scene;
+    SceneOptions scene_options;
+    scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
+    scene_options.show_legend = options.shows_legend;
+    scene.set_options(scene_options);
+    const int pictures = options.goes_back ? 2 * (options.frames - 1) : options.frames;
+    const PictureGround ground = options.is_transparent ? PictureGround::transparent : PictureGround::background;
+    double least = 1.0;
+    std::vector<std::filesystem::path> written;
+    try {
+        for (int index = 0; index < options.frames; ++index) {
+            context.report(fmt::format("Frame {} of {}", index + 1, options.frames),
+                           static_cast<double>(index) / options.frames);
+            const Frame frame = film.make(index, {context.stop, {}});
+            // The view is fitted to the first picture and stays where it is.
+            scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
+            if (frame.quality) least = std::min(least, frame.quality->summary.min);
+            written.push_back(file_of(options, index + 1));
+            render_png(scene, options.width, options.height, written.back(), ground);
+            if (!options.goes_back || index == 0 || index == options.frames - 1) continue;
+            // The way back shows the same.
+            written.push_back(file_of(options, pictures - index + 1));
+            std::filesystem::copy_file(file_of(options, index + 1), written.back(),
+                                       std::filesystem::copy_options::overwrite_existing);
+        }
+    } catch (...) {
+        // A command that does not succeed leaves nothing.
+        for (const std::filesystem::path& file : written) std::filesystem::remove(file, error);
+        throw;
+    }
+    finish_timings(timings, watch);
+    if (invocation.common.json)
+        print_json({{"mesh", mesh_json(options.mesh, mesh)},
+                    {"pictures",
+                     {{"folder", options.folder.string()},
+                      {"first", file_of(options, 1).filename().string()},
+                      {"count", pictures},
+                      {"width", options.width},
+                      {"height", options.height}}},
+                    {"min_on_the_way", sign ? Json(least) : Json()},
+                    {"timings", timings}});
+    else
+        fmt::print("{} pictures of {} x {} pixels, {} to {}\n", pictures, options.width, options.height,
+                   file_of(options, 1).string(), file_of(options, pictures).filename().string());
+    return exit_done;
+}
+
+}  // namespace
+
+void add_animate(CLI::App& app, Invocation& invocation) {
+    auto* command = add_command(app, invocation, "animate", "Pictures of a warp on its way, for a video");
+    auto options = std::make_shared<Options>();
+    add_input_option(*command, options->mesh, "MESH");
+    add_deformation_option(*command, options->deformation);
+    command->add_option("-o,--output", options->folder, "Folder for the pictures, MESH-0001.png and so on")
+        ->required()
+        ->type_name("FOLDER");
+    command->add_option("--frames", options->frames, "Pictures from the start to the end")
+        ->type_name("N")
+        ->check(CLI::Range(2, 9999))
+        ->capture_default_str();
+    command->add_option("--size", "Size in pixels, even (default 1920x1080)")
+        ->type_name("WxH")
+        ->check([options](const std::string& text) { return parse_size(text, *options); });
+    command->add_flag("--there-and-back", options->goes_back, "And back again, for a video that runs in a loop");
+    command->add_flag("--transparent", options->is_transparent, "No ground: what is not the mesh is transparent");
+    command->add_flag_function(
+        "--no-legend", [options](std::int64_t) { options->shows_legend = false; }, "Leave out the legend");
+    add_weight_options(*command, options->warp);
+    set_action(*command, invocation, options, run);
+}
+
+}  // namespace curvewright::cli

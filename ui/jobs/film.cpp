@@ -1,0 +1,177 @@
+#include "ui/jobs/film.h"
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QFile>
+#include <QRegularExpression>
+
+#include "core/base/error.h"
+#include "core/io/deformation_file.h"
+#include "ui/document/number_format.h"
+#include "ui/jobs/mesh_state.h"
+#include "ui/jobs/picture_file.h"
+
+namespace curvewright {
+namespace {
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("curvewright::MeshJobs", text);
+}
+
+/// A picture that the worker waits for. Shared by both threads; whoever gives up first leaves it to the other.
+struct Drawing {
+    std::mutex mutex;
+    std::condition_variable_any is_over;
+    bool is_done = false, is_given_up = false;
+    QImage image;
+    std::exception_ptr problem;
+};
+
+QImage draw_in_window(QObject* window, const std::function<QImage(const Frame&)>& draw,
+                      std::shared_ptr<const Frame> frame, const std::stop_token& stop) {
+    auto drawing = std::make_shared<Drawing>();
+    QMetaObject::invokeMethod(
+        window,
+        [drawing, draw, frame = std::move(frame)] {
+            {
+                const std::lock_guard lock(drawing->mutex);
+                if (drawing->is_given_up) return;
+            }
+            QImage image;
+            std::exception_ptr problem;
+            try {
+                image = draw(*frame);
+            } catch (...) {
+                problem = std::current_exception();
+            }
+            const std::lock_guard lock(drawing->mutex);
+            drawing->image = std::move(image);
+            drawing->problem = problem;
+            drawing->is_done = true;
+            drawing->is_over.notify_all();
+        },
+        Qt::QueuedConnection);
+    std::unique_lock lock(drawing->mutex);
+    if (!drawing->is_over.wait(lock, stop, [&] { return drawing->is_done; })) {
+        drawing->is_given_up = true;
+        throw Cancelled();
+    }
+    if (drawing->problem) std::rethrow_exception(drawing->problem);
+    if (drawing->image.isNull())
+        throw Unsupported(tr("The picture could not be drawn: there is not enough graphics memory.").toStdString());
+    return drawing->image;
+}
+
+/// What a leg of a film is made of.
+struct LegPlan {
+    QString name;
+    std::shared_ptr<const CurvedMesh> start, end;
+    QString deformation_path;                        ///< "" = straight
+    std::shared_ptr<const Deformation> deformation;  ///< if it is still loaded
+    std::optional<WarpOptions> warp;
+};
+
+MotionLeg leg_of(const LegPlan& plan, bool& is_lost, const TaskContext& context) {
+    MotionLeg leg{plan.name.toStdString(), plan.start->coordinates(), plan.end->coordinates(), plan.deformation,
+                  plan.warp};
+    if (leg.deformation || plan.deformation_path.isEmpty()) return leg;
+    try {
+        leg.deformation =
+            std::make_shared<const Deformation>(read_deformation(to_path(plan.deformation_path), context));
+    } catch (const InvalidInput&) {
+        is_lost = true;
+    }
+    return leg;
+}
+
+}  // namespace
+
+QString film_file(const QString& folder, const QString& prefix, int number) {
+    return QDir(folder).filePath(QStringLiteral("%1-%2.png").arg(prefix).arg(number, 4, 10, QLatin1Char('0')));
+}
+
+QStringList film_files(const QString& folder, const QString& prefix) {
+    const QRegularExpression pattern(QStringLiteral("^%1-\\d{4,}\\.png$").arg(QRegularExpression::escape(prefix)));
+    QStringList files;
+    const QDir dir(folder);
+    for (const QString& name : dir.entryList(QDir::Files))
+        if (pattern.match(name).hasMatch()) files << dir.filePath(name);
+    return files;
+}
+
+JobRunner::Work film_work(QObject* window, FilmRequest request) {
+    return [window, request = std::move(request)](const TaskContext& context) -> JobRunner::Finish {
+        const TaskContext silent{context.stop, {}};
+        const std::unique_ptr<FrameSource> source = request.source(silent);
+        const int there = source->count(), pictures = request.goes_back ? 2 * (there - 1) : there;
+        if (!QDir().mkpath(request.folder))
+            throw InvalidInput(request.folder.toStdString(), 0,
+                               tr("this folder cannot be made; choose another one.").toStdString());
+        const QStringList older = film_files(request.folder, request.prefix);
+        QStringList written;
+        for (int index = 0; index < there; ++index) {
+            const QString phase = tr("frame %1 of %2").arg(format_count(index + 1), format_count(there));
+            context.report(phase.toStdString(), static_cast<double>(index) / there);
+            auto frame = std::make_shared<const Frame>(source->make(index, silent));
+            const QByteArray bytes = encode_png(draw_in_window(window, request.draw, std::move(frame), context.stop));
+            // The way back shows the same.
+            std::vector<int> places{index};
+            if (request.goes_back && index > 0 && index < there - 1) places.push_back(pictures - index);
+            for (const int place : places) {
+                written << film_file(request.folder, request.prefix, place + 1);
+                write_bytes(written.back(), bytes, silent);
+            }
+        }
+        // A video of the pictures must not end with those of an older film.
+        for (const QString& file : older)
+            if (!written.contains(file)) QFile::remove(file);
+        const QString remark = QString::fromStdString(source->remark());
+        return [then = request.then, pictures, remark] {
+            if (then) then(pictures, remark);
+        };
+    };
+}
+
+std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_history(const MeshDocument& document, int from,
+                                                                                int count) {
+    std::vector<LegPlan> plans;
+    for (int step = from; step < document.history()->index(); ++step) {
+        LegPlan plan;
+        plan.name = document.history()->text(step);
+        plan.start = document.state_at(step).mesh;
+        plan.end = document.state_at(step + 1).mesh;
+        const Action& action = document.step_action(step);
+        if (const auto* deform = std::get_if<DeformAction>(&action))
+            plan.deformation_path = QString::fromStdString(deform->deformation);
+        // One in increments with weights of its own at every step is more than one warp.
+        if (const auto* warp = std::get_if<WarpAction>(&action); warp && !warp->increments) {
+            plan.deformation_path = QString::fromStdString(warp->deformation);
+            plan.warp = warp->options;
+        }
+        const auto& loaded = document.deformation();
+        if (!plan.deformation_path.isEmpty() && loaded && loaded->file_path == plan.deformation_path)
+            plan.deformation = loaded->deformation;
+        plans.push_back(std::move(plan));
+    }
+    const MeshState& present = document.state();
+    const std::optional<double> sign =
+        present.quality ? std::optional(present.quality->orientation_sign) : std::nullopt;
+    return [plans, mesh = present.mesh, sign, count](const TaskContext& context) -> std::unique_ptr<FrameSource> {
+        std::vector<MotionLeg> legs;
+        std::vector<std::string> lost;
+        for (const LegPlan& plan : plans) {
+            bool is_lost = false;
+            legs.push_back(leg_of(plan, is_lost, context));
+            if (is_lost) lost.push_back(legs.back().caption);
+        }
+        auto frames = std::make_unique<MotionFrames>(*mesh, sign, std::move(legs), count);
+        for (const std::string& caption : lost) frames->add_straightened(caption);
+        return frames;
+    };
+}
+
+}  // namespace curvewright

@@ -1,0 +1,192 @@
+#include "ui/jobs/operation_steps.h"
+
+#include <QCoreApplication>
+#include <QDir>
+#include <QRegularExpression>
+
+#include "core/base/error.h"
+#include "core/deform/deformation.h"
+#include "core/session/replay.h"
+#include "ui/document/number_format.h"
+#include "ui/jobs/untangling.h"
+
+namespace curvewright {
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+    using Functions::operator()...;
+};
+
+QString tr(const char* text) {
+    return QCoreApplication::translate("curvewright::MeshJobs", text);
+}
+
+QString steps_text(const IncrementOptions& increments) {
+    if (increments.steps == 0) return tr("automatic steps");
+    return increments.steps == 1 ? tr("1 step") : tr("%1 steps").arg(format_count(increments.steps));
+}
+
+/// fraction: of the motion that was reached.
+QString warp_name(const WarpOptions& options, const std::optional<IncrementOptions>& increments, double fraction) {
+    QString name = fraction < 1.0 ? tr("Warp to %1 %").arg(QString::number(100.0 * fraction, 'g', 4)) : tr("Warp");
+    name += options.weighting == Weighting::elastic  ? tr(", elastic body")
+            : options.weighting == Weighting::affine ? tr(", affine weights")
+                                                     : tr(", convex weights");
+    if (options.weighting != Weighting::elastic && options.distance_power != WarpOptions().distance_power)
+        name += tr(", power %1").arg(short_number(options.distance_power));
+    if (increments) name += QStringLiteral(", ") + steps_text(*increments);
+    return name;
+}
+
+/// The options that were used, a line each for the weights and the steps.
+QString warp_details(const WarpOptions& options, const std::optional<IncrementOptions>& increments) {
+    QString text;
+    if (options.weighting == Weighting::elastic) {
+        text = tr("Poisson’s ratio %1, stiffening %2")
+                   .arg(short_number(options.poisson_ratio), short_number(options.stiffening));
+    } else {
+        text = tr("Distance power %1").arg(short_number(options.distance_power));
+        if (options.neighbours == NeighbourKind::high_order) text += tr(", high-order neighbours");
+        if (options.neighbours == NeighbourKind::edge_connected) text += tr(", neighbours one edge away");
+    }
+    if (increments)
+        text += QLatin1Char('\n') + (increments->recomputes_weights ? tr("In %1, with new weights at every step")
+                                                                    : tr("In %1, with the weights of the first mesh"))
+                                        .arg(steps_text(*increments));
+    return text;
+}
+
+QString describe_increments(const IncrementReport& report, const MeshTopology& topology) {
+    static const QRegularExpression minus(QStringLiteral("-(?=\\d)"));
+    return QString::fromStdString(describe(report, topology)).replace(minus, QString(QChar(0x2212)));
+}
+
+QString describe_warp(const WarpReport& report) {
+    QString text = tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
+    text += report.solver == SolverChoice::direct
+                ? tr(" (direct solver).")
+                : tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
+    if (!report.outside_hull.empty())
+        text += tr(" %1 nodes have no convex weights and took affine ones.")
+                    .arg(format_count(static_cast<long long>(report.outside_hull.size())));
+    if (!report.degenerate.empty())
+        text += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
+                    .arg(format_count(static_cast<long long>(report.degenerate.size())));
+    return text;
+}
+
+Index moved_nodes(const Coordinates& a, const Coordinates& b) {
+    Index count = 0;
+    for (Eigen::Index row = 0; row < a.rows(); ++row) count += (a.row(row) != b.row(row));
+    return count;
+}
+
+QString nodes_text(std::size_t count) {
+    return count == 1 ? tr("1 node") : tr("%1 nodes").arg(format_count(static_cast<long long>(count)));
+}
+
+QString drag_name(const DragAction& action) {
+    if (action.kind == ResponseKind::translation && action.nodes.size() == 1)
+        return tr("Drag node %1").arg(action.nodes.front().value);
+    return action.kind == ResponseKind::translation ? tr("Move %1").arg(nodes_text(action.nodes.size()))
+                                                    : tr("Transform %1").arg(nodes_text(action.nodes.size()));
+}
+
+}  // namespace
+
+QString by_file(const QString& deformation_path) {
+    return tr("By %1").arg(QDir::toNativeSeparators(deformation_path));
+}
+
+Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded) {
+    Step step;
+    step.coordinates = apply_deformation(mesh, *loaded.deformation);
+    step.action = DeformAction{loaded.file_path.toStdString()};
+    step.name = tr("Deform boundary");
+    step.details = by_file(loaded.file_path);
+    step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
+                    .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
+    step.advice = tr("Untangle the elements that have tangled, or undo and warp instead.");
+    return step;
+}
+
+Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const WarpOptions& options,
+               const std::optional<IncrementOptions>& increments, const TaskContext& context) {
+    WarpOptions with_interfaces = options;
+    with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
+    Step step;
+    step.details = by_file(loaded.file_path) + QLatin1Char('\n') + warp_details(options, increments);
+    double fraction = 1.0;
+    if (increments) {
+        const BoundaryPath path = [&](double part) { return apply_deformation(mesh, *loaded.deformation, part); };
+        IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context);
+        fraction = result.increments.fraction;
+        const QString way = describe_increments(result.increments, mesh.topology());
+        if (fraction == 0.0)
+            throw SolverFailure(tr("%1 More steps or other weights may go further.").arg(way).toStdString());
+        const QString followed = describe_warp(result.report);
+        if (result.increments.is_complete()) {
+            step.note = followed + QLatin1Char(' ') + way;
+        } else {
+            step.note = way;
+            step.details += QLatin1Char('\n') + followed;
+        }
+        step.coordinates = std::move(result.coordinates);
+    } else {
+        WarpResult result = warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
+        step.note = describe_warp(result.report);
+        step.coordinates = std::move(result.coordinates);
+    }
+    step.action = WarpAction{loaded.file_path.toStdString(), options, increments};
+    step.name = warp_name(options, increments, fraction);
+    step.advice =
+        tr("Elements have tangled: undo and try automatic steps, other weights or another distance power, or "
+           "untangle.");
+    return step;
+}
+
+Step flip_step(const CurvedMesh& mesh) {
+    Step step;
+    step.coordinates = mesh.coordinates();
+    step.name = tr("Flip numbering");
+    step.details = tr("All elements are numbered the other way round.");
+    step.action = FlipAction{};
+    return step;
+}
+
+Step again(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opened,
+           const std::function<LoadedDeformation(const std::string&)>& load, const TaskContext& context) {
+    const auto computed = [&](QString name) {
+        Step step;
+        step.name = std::move(name);
+        step.coordinates = perform(action, mesh, opened, {}, context).coordinates();
+        step.action = action;
+        return step;
+    };
+    return std::visit(
+        Overloaded{[&](const DeformAction& its) { return deform_step(mesh, load(its.deformation)); },
+                   [&](const WarpAction& its) {
+                       return warp_step(mesh, load(its.deformation), its.options, its.increments, context);
+                   },
+                   [&](const UntangleAction& its) {
+                       Step step = untangle(mesh, its.options, context);
+                       context.check();
+                       return step;
+                   },
+                   [&](const FlipAction&) { return flip_step(mesh); },
+                   [&](const DragAction& its) { return computed(drag_name(its)); },
+                   [&](const PlaceAction& its) { return computed(tr("Place %1").arg(nodes_text(its.rows.size()))); },
+                   [&](const auto&) -> Step {
+                       throw InvalidInput(
+                           "Opening a mesh and walking through the history are nothing that a mesh can do.");
+                   }},
+        action);
+}
+
+QString full_details(const Step& step) {
+    if (step.details.isEmpty()) return step.note;
+    return step.note.isEmpty() ? step.details : step.details + QLatin1Char('\n') + step.note;
+}
+
+}  // namespace curvewright

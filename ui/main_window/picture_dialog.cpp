@@ -1,0 +1,213 @@
+#include "ui/main_window/picture_dialog.h"
+
+#include <QCheckBox>
+#include <QClipboard>
+#include <QDialogButtonBox>
+#include <QDoubleSpinBox>
+#include <QFileInfo>
+#include <QFormLayout>
+#include <QGuiApplication>
+#include <QHBoxLayout>
+#include <QLabel>
+#include <QPainter>
+#include <QPushButton>
+#include <QSettings>
+#include <QVBoxLayout>
+
+#include "core/base/error.h"
+#include "ui/jobs/picture_file.h"
+#include "ui/main_window/mesh_view.h"
+#include "ui/panels/form_fields.h"
+#include "ui/panels/size_fields.h"
+#include "ui/panels/widgets.h"
+
+namespace curvewright {
+
+PreviewLabel::PreviewLabel(QWidget* parent) : QWidget(parent) {
+    setObjectName(QStringLiteral("picture_preview"));
+    setMinimumSize(320, 240);
+}
+
+QSize PreviewLabel::room() const {
+    return (QSizeF(size()) * devicePixelRatioF()).toSize();
+}
+
+void PreviewLabel::set_picture(const QImage& picture) {
+    picture_ = picture;
+    update();
+}
+
+void PreviewLabel::paintEvent(QPaintEvent*) {
+    if (picture_.isNull()) return;
+    QPainter painter(this);
+    const QSizeF shown = QSizeF(picture_.size()) / devicePixelRatioF();
+    const QRectF place(QPointF(0.5 * (width() - shown.width()), 0.5 * (height() - shown.height())), shown);
+    if (picture_.hasAlphaChannel()) {
+        constexpr int field = 8;
+        const QColor light(255, 255, 255), dark(208, 208, 208);
+        painter.save();
+        painter.setClipRect(place);
+        painter.fillRect(place, light);
+        for (int row = 0; row * field < place.height(); ++row)
+            for (int column = row % 2; column * field < place.width(); column += 2)
+                painter.fillRect(QRectF(place.left() + column * field, place.top() + row * field, field, field), dark);
+        painter.restore();
+    }
+    painter.drawImage(place, picture_);
+    painter.setPen(palette().color(QPalette::Mid));
+    painter.drawRect(place.adjusted(-0.5, -0.5, 0.5, 0.5));
+}
+
+PictureDialog::PictureDialog(MeshView& view, std::function<QString()> ask_path, QWidget* parent)
+    : QDialog(parent), view_(view), ask_path_(std::move(ask_path)) {
+    setObjectName(QStringLiteral("picture_dialog"));
+    setWindowTitle(tr("Save a picture"));
+    setAttribute(Qt::WA_DeleteOnClose);
+    const QSettings settings;
+
+    preview_ = new PreviewLabel;
+    size_ = new SizeFields(QStringLiteral("picture"), false);
+    size_->set_view_size(view.device_size());
+    line_scale_ = make_number("picture_lines", 0.25, 8.0, 0.25, 2,
+                              settings.value(QStringLiteral("picture/line_scale"), 1.0).toDouble());
+    line_scale_->setPrefix(QStringLiteral("× "));
+    line_scale_->setToolTip(tr(
+        "Thickness of lines and size of text and points. At × 1 they grow with the picture: it looks like the view."));
+    transparent_ = new QCheckBox(tr("Transparent ground"));
+    transparent_->setObjectName(QStringLiteral("picture_transparent"));
+    transparent_->setToolTip(tr("What is not the mesh is see-through, for slides and pages of any colour"));
+    transparent_->setChecked(settings.value(QStringLiteral("picture/transparent"), false).toBool());
+    legend_ = new QCheckBox(tr("Legend"));
+    legend_->setObjectName(QStringLiteral("picture_legend"));
+    legend_->setChecked(settings.value(QStringLiteral("picture/legend"), true).toBool());
+    if (!view.options().show_legend) {
+        legend_->setEnabled(false);
+        legend_->setToolTip(tr("The view has no legend now: View > Legend"));
+    }
+    message_ = make_paragraph(QString(), "");
+    message_->setObjectName(QStringLiteral("picture_message"));
+    set_tone(message_, "warning");
+
+    auto* form = make_form();
+    form->addRow(tr("Size"), size_);
+    form->addRow(tr("Lines and text"), line_scale_);
+    form->addRow(QString(), transparent_);
+    form->addRow(QString(), legend_);
+    if (auto* label = qobject_cast<QLabel*>(form->labelForField(size_)))
+        label->setAlignment(Qt::AlignTop | Qt::AlignLeft);
+    auto* side = new QVBoxLayout;
+    side->setSpacing(8);
+    side->addLayout(form);
+    side->addWidget(message_);
+    side->addStretch(1);
+    auto* top = new QHBoxLayout;
+    top->setSpacing(16);
+    top->addWidget(preview_, 1);
+    top->addLayout(side);
+
+    save_ = make_primary_button(tr("Save…"), QStringLiteral("picture_save"));
+    save_->setDefault(true);
+    copy_ = new QPushButton(tr("Copy"));
+    copy_->setObjectName(QStringLiteral("picture_copy"));
+    copy_->setToolTip(tr("Put the picture on the clipboard"));
+    auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    buttons->addButton(copy_, QDialogButtonBox::ActionRole);
+    buttons->addButton(save_, QDialogButtonBox::AcceptRole);
+    auto* layout = new QVBoxLayout(this);
+    layout->setContentsMargins(16, 16, 16, 12);
+    layout->setSpacing(12);
+    layout->addLayout(top, 1);
+    layout->addWidget(buttons);
+    resize(680, 360);
+
+    preview_timer_.setSingleShot(true);
+    preview_timer_.setInterval(100);
+    connect(&preview_timer_, &QTimer::timeout, this, &PictureDialog::draw_preview);
+    connect(size_, &SizeFields::changed, this, &PictureDialog::refresh);
+    connect(line_scale_, &QDoubleSpinBox::valueChanged, this, &PictureDialog::refresh);
+    connect(transparent_, &QCheckBox::toggled, this, &PictureDialog::refresh);
+    connect(legend_, &QCheckBox::toggled, this, &PictureDialog::refresh);
+    connect(&view, &MeshView::camera_moved, this, &PictureDialog::refresh);
+    connect(save_, &QPushButton::clicked, this, &PictureDialog::save);
+    connect(copy_, &QPushButton::clicked, this, &PictureDialog::copy);
+    connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(&runner_, &JobRunner::failed, this, [this](const QString&, const QString& text) {
+        refresh();
+        emit failed(text);
+    });
+    refresh();
+}
+
+PictureDialog::~PictureDialog() = default;
+
+PictureOptions PictureDialog::options() const {
+    PictureOptions options;
+    options.size = size_->picture_size();
+    options.line_scale = line_scale_->value();
+    options.is_transparent = transparent_->isChecked();
+    options.has_legend = legend_->isChecked();
+    return options;
+}
+
+void PictureDialog::refresh() {
+    const QString problem = why_no_picture(size_->picture_size(), view_.largest_picture_side());
+    message_->setText(problem);
+    message_->setVisible(!problem.isEmpty());
+    for (QPushButton* button : {save_, copy_}) button->setEnabled(problem.isEmpty() && !runner_.is_running());
+    preview_timer_.start();
+}
+
+void PictureDialog::draw_preview() {
+    PictureOptions small = options();
+    const QSize room = preview_->room() - QSize(2, 2);
+    small.size = small.size.scaled(room, Qt::KeepAspectRatio).expandedTo({1, 1});
+    preview_->set_picture(view_.picture(small));
+}
+
+QImage PictureDialog::draw() {
+    QGuiApplication::setOverrideCursor(Qt::WaitCursor);
+    const QImage image = view_.picture(options());
+    QGuiApplication::restoreOverrideCursor();
+    if (image.isNull())
+        emit failed(tr("The picture could not be drawn: there is not enough graphics memory for %1 × %2 pixels.")
+                        .arg(size_->picture_size().width())
+                        .arg(size_->picture_size().height()));
+    return image;
+}
+
+void PictureDialog::save() {
+    QString path = ask_path_();
+    if (path.isEmpty()) return;
+    if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
+    const QImage image = draw();
+    if (image.isNull()) return;
+    remember();
+    runner_.start(tr("Writing %1").arg(QFileInfo(path).fileName()), [this, path, image](const TaskContext& context) {
+        write_bytes(path, encode_png(image), context);
+        return [this, path, size = image.size()] {
+            emit saved(path, size);
+            accept();
+        };
+    });
+    refresh();
+}
+
+void PictureDialog::copy() {
+    const QImage image = draw();
+    if (image.isNull()) return;
+    remember();
+    // What other programs understand best.
+    QGuiApplication::clipboard()->setImage(
+        image.convertToFormat(image.hasAlphaChannel() ? QImage::Format_ARGB32 : QImage::Format_RGB32));
+    emit saved({}, image.size());
+}
+
+void PictureDialog::remember() const {
+    size_->remember();
+    QSettings settings;
+    settings.setValue(QStringLiteral("picture/line_scale"), line_scale_->value());
+    settings.setValue(QStringLiteral("picture/transparent"), transparent_->isChecked());
+    if (legend_->isEnabled()) settings.setValue(QStringLiteral("picture/legend"), legend_->isChecked());
+}
+
+}  // namespace curvewright

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <functional>
+
+#include <QDialog>
+#include <QTimer>
+
+#include "ui/jobs/job_runner.h"
+#include "ui/main_window/picture_drawing.h"
+
+class QCheckBox;
+class QDoubleSpinBox;
+class QLabel;
+class QPushButton;
+
+namespace curvewright {
+
+class MeshView;
+class PreviewLabel;
+class SizeFields;
+
+/// File > Save picture: what the view shows, at any size, to a file or the clipboard, with a preview. The window stays
+/// usable beside it: the preview follows the view. Remembers the last choices.
+class PictureDialog : public QDialog {
+    Q_OBJECT
+
+  public:
+    /// ask_path: for a file name; "" = the user gave up.
+    PictureDialog(MeshView& view, std::function<QString()> ask_path, QWidget* parent);
+    ~PictureDialog() override;
+
+    PictureOptions options() const;
+
+  signals:
+    /// A picture was written, or put on the clipboard (path "").
+    void saved(const QString& path, QSize size);
+    void failed(const QString& message);
+
+  private:
+    void refresh();
+    void draw_preview();
+    QImage draw();
+    void save();
+    void copy();
+    void remember() const;
+
+    MeshView& view_;
+    std::function<QString()> ask_path_;
+    JobRunner runner_;
+    QTimer preview_timer_;
+    PreviewLabel* preview_ = nullptr;
+    SizeFields* size_ = nullptr;
+    QDoubleSpinBox* line_scale_ = nullptr;
+    QCheckBox *transparent_ = nullptr, *legend_ = nullptr;
+    QLabel* message_ = nullptr;
+    QPushButton *save_ = nullptr, *copy_ = nullptr;
+};
+
+/// A picture in the middle of its place, on a chequered ground where it is transparent.
+class PreviewLabel : public QWidget {
+    Q_OBJECT
+
+  public:
+    explicit PreviewLabel(QWidget* parent = nullptr);
+    /// Its largest size, device pixels.
+    QSize room() const;
+    void set_picture(const QImage& picture);
+    const QImage& picture() const { return picture_; }
+
+  protected:
+    void paintEvent(QPaintEvent* event) override;
+
+  private:
+    QImage picture_;
+};
+
+}  // namespace curvewright
