@@ -8,6 +8,7 @@
 #include <QTimer>
 
 #include "app/desktop/start_up.h"
+#include "app/desktop/translations.h"
 #include "ui/main_window/main_window.h"
 #include "ui/panels/theme.h"
 
@@ -90,6 +91,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "curvewright: %s\n", problem.c_str());
         return 1;
     }
+
+    // Words of Qt's in a language that the program does not speak would be a mixture.
+    if (!install_translations(QLocale(), translation_folders(), &application).isEmpty())
+        install_qt_translations(QLocale(), &application);
 
     Theme theme(application);
     MainWindow window(theme);

@@ -66,6 +66,12 @@ Journal::~Journal() {
     erase();
 }
 
+void Journal::set_keeping(bool keeps) {
+    if (keeps == keeps_) return;
+    keeps_ = keeps;
+    follow();
+}
+
 void Journal::follow() {
     // A step changes several things at once: write it once.
     if (std::exchange(is_due_, true)) return;
@@ -74,7 +80,7 @@ void Journal::follow() {
 
 void Journal::follow_now() {
     is_due_ = false;
-    if (document_.is_dirty())
+    if (keeps_ && document_.is_dirty())
         write();
     else
         erase();

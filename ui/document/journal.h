@@ -33,6 +33,8 @@ class Journal : public QObject {
     ~Journal() override;
 
     bool is_working() const { return is_working_; }
+    /// Whether work is written down from now on (at first it is); what is there of this program goes otherwise.
+    void set_keeping(bool keeps);
 
     /// Work of programs that are no longer alive, the latest first. It is reserved for this program until it is
     /// discarded, so that two windows do not offer the same.
@@ -52,7 +54,7 @@ class Journal : public QObject {
 
     MeshDocument& document_;
     QString folder_, stem_;
-    bool is_working_ = false, has_files_ = false, is_due_ = false;
+    bool is_working_ = false, has_files_ = false, is_due_ = false, keeps_ = true;
     std::unique_ptr<QLockFile> lock_;
     std::vector<std::unique_ptr<QLockFile>> reserved_;
 };

@@ -9,6 +9,7 @@
 #include "ui/document/edit_state.h"
 #include "ui/document/journal.h"
 #include "ui/document/mesh_document.h"
+#include "ui/document/preferences.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
 #include "ui/jobs/live_drag.h"
@@ -21,6 +22,7 @@
 class QDockWidget;
 class QLabel;
 class QMenu;
+class QSplitter;
 class QStackedWidget;
 class QTabWidget;
 
@@ -32,6 +34,7 @@ class DeformPanel;
 class EditPanel;
 class MeshPanel;
 class MeshView;
+class Nudge;
 class PointerTag;
 class QualityPanel;
 class SelectionPanel;
@@ -119,7 +122,16 @@ class MainWindow : public QMainWindow {
     /// The view of the state before the last step, if it is wanted.
     void show_before();
 
+    // main_window_keyboard.cpp
+    void connect_keyboard();
+    /// Moves the keyboard to the next (1) or the previous (-1) of the view and the panels.
+    void go_to_area(int step);
+    void show_found();
+    void apply_preferences();
+
     // main_window_session.cpp
+    /// If the preferences say so and nothing else is open or being opened.
+    void open_last_mesh();
     void connect_session();
     void offer_lost_work();
     void recover(const LostWork& lost);
@@ -145,6 +157,7 @@ class MainWindow : public QMainWindow {
     RecentFiles recent_;
     SampleCatalog samples_;
     std::unique_ptr<Journal> journal_;
+    Preferences preferences_;
     CommandActions actions_;
 
     QStackedWidget* center_ = nullptr;
@@ -155,11 +168,13 @@ class MainWindow : public QMainWindow {
     MeshView* before_view_ = nullptr;  ///< beside view_, if the user wants to compare
     ClipBar* clip_bar_ = nullptr;
     PointerTag* pointer_tag_ = nullptr;
+    Nudge* nudge_ = nullptr;
     std::map<CommandId, Tool*> tools_;
     EditPanel* edit_panel_ = nullptr;
     SelectionPanel* selection_panel_ = nullptr;
     MeshPanel* mesh_panel_ = nullptr;
     QTabWidget* tabs_ = nullptr;
+    QSplitter* right_splitter_ = nullptr;
     DeformPanel* deform_panel_ = nullptr;
     WarpPanel* warp_panel_ = nullptr;
     UntanglePanel* untangle_panel_ = nullptr;

@@ -9,10 +9,12 @@
 
 #include "ui/document/mesh_document.h"
 #include "ui/scene/mesh_scene.h"
+#include "ui/scene/mouse_map.h"
 #include "ui/tools/canvas.h"
 
 namespace curvewright {
 
+class SceneInteractorStyle;
 class Tool;
 
 /// The picture of the mesh: a MeshScene in a Qt widget (a vtkGenericOpenGLRenderWindow that draws into the widget's
@@ -34,6 +36,11 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// The options to draw with; the pixel ratio is the view's own.
     void set_options(const SceneOptions& options);
     const SceneOptions& options() const;
+
+    /// Which button moves the camera how.
+    void set_mouse_map(const MouseMap& map);
+    /// Closer to the middle of the view (factor > 1).
+    void zoom(double factor);
 
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
@@ -97,6 +104,9 @@ class MeshView : public QOpenGLWidget, public Canvas {
     std::array<double, 2> to_device(QPointF position) const;
     QPointF from_device(double x, double y) const;
     void hover(QPointF position, Qt::KeyboardModifiers modifiers);
+    /// What the arrow and page keys do to the camera; whether the key is one of them.
+    bool navigate(const QKeyEvent& event);
+    SceneInteractorStyle* camera_style() const;
 
     std::unique_ptr<Parts> parts_;
 };

@@ -64,13 +64,16 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     connect(&document, &MeshDocument::opened, this, &MeshPanel::show_groups);
     connect(&document, &MeshDocument::state_changed, this, &MeshPanel::show_state);
     connect(&document, &MeshDocument::file_path_changed, this, &MeshPanel::show_file);
-    connect(groups_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
+    const auto choose = [this](QTreeWidgetItem* item) {
+        if (!item) return;
         const GroupLine& line = group_lines_[groups_->indexOfTopLevelItem(item)];
         if (line.dimension == document_.state().mesh->topology().dimension())
             emit elements_chosen(line.elements);
         else
             emit nodes_chosen(line.nodes);
-    });
+    };
+    connect(groups_, &QTreeWidget::itemClicked, this, choose);
+    connect(groups_, &QTreeWidget::itemActivated, this, choose);
     show_file();
     show_state();
 }

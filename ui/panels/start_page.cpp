@@ -69,7 +69,7 @@ class SampleCard : public QFrame {
         if (event->button() == Qt::LeftButton && rect().contains(event->position().toPoint())) choose_();
     }
     void keyPressEvent(QKeyEvent* event) override {
-        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space)
+        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space)
             choose_();
         else
             QFrame::keyPressEvent(event);

@@ -14,9 +14,10 @@ namespace curvewright {
 namespace {
 
 /// A swatch in the element's colour; a cross or a question mark says in shape what the colour says.
-QIcon swatch(const ElementQuality& quality, const QColor& outline) {
+QIcon swatch(const ElementQuality& quality, const QColor& outline, qreal ratio) {
     const Color color = quality_color(quality.scaled_jacobian, quality.validity);
-    QPixmap pixmap(16, 16);
+    QPixmap pixmap(QSize(16, 16) * ratio);
+    pixmap.setDevicePixelRatio(ratio);
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
     painter.setPen(outline);
@@ -86,7 +87,7 @@ void WorstTable::refresh() {
     for (const Index element : elements_) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(element)];
         auto* item = new QTreeWidgetItem(table_);
-        item->setIcon(0, swatch(quality, theme_.color(QStringLiteral("border_strong"))));
+        item->setIcon(0, swatch(quality, theme_.color(QStringLiteral("border_strong")), devicePixelRatioF()));
         item->setText(0, QString::number(state.mesh->topology().element_tag(element).value));
         item->setText(1, format_number(quality.scaled_jacobian));
         item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
