@@ -99,7 +99,7 @@ class KeyboardTest : public QObject {
 
     void alt_and_arrows_nudge_what_is_selected() {
         KeyboardUnderTest test;
-        const Index node = test.node_at(0.5, 0.0);
+        const Index node = test.node_at(0.5, 0.0), interior = test.node_at(0.5, 0.5);
         const Coordinates opened = test.positions();
         QSignalSpy frames(&test.drag(), &LiveDrag::frame);
         test.window->edit().select_nodes({node});
@@ -112,7 +112,6 @@ class KeyboardTest : public QObject {
         const Coordinates nudged = test.positions();
         QVERIFY(std::abs(nudged(node, 1) - 8.0 * unit) < 1e-9 && std::abs(nudged(node, 0) - 0.5) < 1e-12);
         QVERIFY(test.distance_from_warp() < 1e-9);
-        const Index interior = test.node_at(0.5, 0.5);
         QVERIFY((nudged.row(interior) - opened.row(interior)).norm() > 0.0);
         test.window->action(CommandId::undo)->trigger();
         QCOMPARE(test.positions(), opened);

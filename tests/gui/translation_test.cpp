@@ -53,12 +53,12 @@ QString untranslated(QString text, const QStringList& data) {
     static const QRegularExpression markup(QStringLiteral("<[^<>]*>|&[a-z]+;"));
     static const QRegularExpression brackets(QStringLiteral("\\x{27e6}[^\\x{27e6}\\x{27e7}]*\\x{27e7}"));
     static const QRegularExpression files(QStringLiteral("\\S*(/|\\.(msh|json|csv|vtu|gz))\\S*"));
-    static const QRegularExpression groups(QStringLiteral("\\b(bottom|right|top|left|domain|all_boundary)\\b"));
+    static const QRegularExpression groups(QStringLiteral("\\b(bottom|right|top|left|domain|all_boundary|sin|pi)\\b"));
     static const QRegularExpression words(QStringLiteral("\\p{L}{2,}"));
     text.replace(markup, QStringLiteral(" "));
     for (qsizetype length = -1; length != text.size();) {
         length = text.size();
-        text.remove(brackets);
+        text.replace(brackets, QStringLiteral(" "));
     }
     for (const QString& known : data)
         if (!known.isEmpty()) text.remove(known);

@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QTabWidget>
 
+#include "ui/document/core_words.h"
 #include "ui/document/mesh_text.h"
 #include "ui/document/number_format.h"
 #include "ui/main_window/command_palette.h"
@@ -365,7 +366,7 @@ void MainWindow::tell_element(std::optional<Index> element) {
     const Eigen::RowVector3d center = state.mesh->element_center(*element);
     QString text = tr("Element %1, %2, centre (%3, %4, %5)")
                        .arg(topology.element_tag(*element).value)
-                       .arg(QString::fromStdString(name(topology.element_type(*element))), format_number(center.x()),
+                       .arg(type_name(topology.element_type(*element)), format_number(center.x()),
                             format_number(center.y()), format_number(center.z()));
     if (state.quality) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(*element)];

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "core/base/error.h"
+#include "ui/document/core_words.h"
 #include "ui/document/number_format.h"
 #include "ui/panels/form_fields.h"
 #include "ui/panels/jacobian_map.h"
@@ -253,7 +254,7 @@ void SelectionPanel::show_element(Index element) {
     const MeshState& state = edit_.document().state();
     const MeshTopology& topology = state.mesh->topology();
     add_detail(tr("Element"), QString::number(topology.element_tag(element).value));
-    add_detail(tr("Type"), QString::fromStdString(name(topology.element_type(element))));
+    add_detail(tr("Type"), type_name(topology.element_type(element)));
     const auto center = state.mesh->element_center(element);
     add_detail(
         tr("Centre"),

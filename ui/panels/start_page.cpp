@@ -136,6 +136,7 @@ StartPage::StartPage(const SampleCatalog& samples, RecentFiles& recent, const Th
     auto* scroll = new QScrollArea;
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setFocusPolicy(Qt::NoFocus);  // Tab goes to what is in it
     scroll->setWidget(center);
     scroll->viewport()->setAutoFillBackground(false);
     center->setAutoFillBackground(false);
