@@ -123,12 +123,7 @@ void show_shortcuts(QWidget* parent, const CommandActions& actions, MouseHabits 
     }
     add(tr("Click"), tr("Tell about the element, the bar of a histogram or the group"));
     begin(tr("Keys of the view and of the panels"));
-    for (const FixedKeys& fixed : fixed_keys()) {
-        QStringList keys;
-        for (const QKeySequence& key : parse_keys(QLatin1String(fixed.keys)))
-            keys << key.toString(QKeySequence::NativeText);
-        add(keys.join(QStringLiteral(", ")), fixed_text(fixed));
-    }
+    for (const FixedKeys& fixed : fixed_keys()) add(fixed_name(fixed), fixed_text(fixed));
     begin(tr("Commands, keys: %1").arg(preset_text(actions.shortcuts().preset())));
     for (const Command& command : commands()) {
         const QList<QKeySequence>& keys = actions.shortcuts().keys(command.id);

@@ -68,6 +68,7 @@ ShortcutPage::ShortcutPage(Shortcuts& shortcuts, QWidget* parent) : QWidget(pare
     table_->setHeaderLabels({tr("Command"), tr("Keys")});
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
+    table_->setAllColumnsShowFocus(true);
     table_->header()->setStretchLastSection(true);
     table_->setMinimumHeight(160);
 

@@ -61,17 +61,19 @@ const ShortcutPreset presets[] = {
     {"blender", TEXT("Like Blender"), blender_keys},
 };
 
+// clang-format off
 const FixedKeys fixed_list[] = {
-    {"Left; Right; Up; Down", TEXT("Move a flat mesh, turn a solid"), false},
-    {"Shift+Left; Shift+Right; Shift+Up; Shift+Down", TEXT("Turn becomes move, and the other way round"), false},
-    {"PgUp; PgDown", TEXT("Zoom in and out"), false},
-    {"Alt+Left; Alt+Right; Alt+Up; Alt+Down", TEXT("Nudge the selected nodes; the mesh follows"), false},
-    {"Alt+Shift+Left; Alt+Shift+Right; Alt+Shift+Up; Alt+Shift+Down", TEXT("Nudge them ten times as far"), false},
-    {"Tab; Shift+Tab", TEXT("Go to the next or the previous field"), false},
-    {"Return; Enter; Space", TEXT("Choose what the keyboard is at"), false},
-    {"Esc", TEXT("Put back what is in hand, stop a job, select nothing"), false, CommandId::stop},
-    {"X; Y; Z; N", TEXT("While dragging: keep to an axis or to the normal; again: free"), true},
+    {"Left; Right; Up; Down", TEXT("Arrows"), TEXT("Move a flat mesh, turn a solid"), false},
+    {"Shift+Left; Shift+Right; Shift+Up; Shift+Down", TEXT("Shift+arrows"), TEXT("Move a solid"), false},
+    {"PgUp; PgDown", TEXT("Page Up, Page Down"), TEXT("Zoom in and out"), false},
+    {"Alt+Left; Alt+Right; Alt+Up; Alt+Down", TEXT("Alt+arrows"), TEXT("Nudge the selected nodes; the mesh follows"), false},
+    {"Alt+Shift+Left; Alt+Shift+Right; Alt+Shift+Up; Alt+Shift+Down", TEXT("Alt+Shift+arrows"), TEXT("Nudge them ten times as far"), false},
+    {"Tab; Shift+Tab", TEXT("Tab, Shift+Tab"), TEXT("Go to the next or the previous field"), false},
+    {"Return; Enter; Space", TEXT("Enter, Space"), TEXT("Choose what the keyboard is at"), false},
+    {"Esc", TEXT("Esc"), TEXT("Put back what is in hand, stop a job, select nothing"), false, CommandId::stop},
+    {"X; Y; Z; N", TEXT("X, Y, Z, N"), TEXT("While dragging: keep to an axis or to the normal; again: free"), true},
 };
+// clang-format on
 
 #undef TEXT
 
@@ -100,6 +102,10 @@ std::span<const FixedKeys> fixed_keys() {
 
 QString fixed_text(const FixedKeys& keys) {
     return QCoreApplication::translate("Shortcuts", keys.text);
+}
+
+QString fixed_name(const FixedKeys& keys) {
+    return QCoreApplication::translate("Shortcuts", keys.shown);
 }
 
 QList<QKeySequence> parse_keys(const QString& keys) {

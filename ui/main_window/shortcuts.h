@@ -32,13 +32,15 @@ QString preset_text(const ShortcutPreset& preset);
 
 /// Keys that are no command's and cannot be given away.
 struct FixedKeys {
-    const char* keys;  ///< as Command::shortcuts
-    const char* text;  ///< what they do
+    const char* keys;   ///< as Command::shortcuts
+    const char* shown;  ///< for people
+    const char* text;   ///< what they do
     bool
         is_in_hand_only;  ///< only while something is dragged, when all keys are the tool's: they may have commands too
     std::optional<CommandId> command = {};  ///< of which this is the key all the same
 };
 std::span<const FixedKeys> fixed_keys();
+QString fixed_name(const FixedKeys& keys);
 QString fixed_text(const FixedKeys& keys);
 /// "Ctrl+Y; Ctrl+Shift+Z" as sequences.
 QList<QKeySequence> parse_keys(const QString& keys);

@@ -34,6 +34,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     groups_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     groups_->setRootIsDecorated(false);
     groups_->setUniformRowHeights(true);
+    groups_->setAllColumnsShowFocus(true);
     groups_->header()->setStretchLastSection(false);
     groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     groups_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);

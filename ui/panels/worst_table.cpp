@@ -58,6 +58,7 @@ WorstTable::WorstTable(MeshDocument& document, const Theme& theme, QWidget* pare
     table_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
+    table_->setAllColumnsShowFocus(true);
     table_->header()->setStretchLastSection(true);
     table_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->setToolTip(tr("Click a row to look at the element"));
