@@ -2,7 +2,9 @@
 
 #include <set>
 
+#include <QAbstractSpinBox>
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDialog>
 #include <QKeySequenceEdit>
@@ -13,6 +15,7 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QTabWidget>
+#include <QToolButton>
 #include <QTreeWidget>
 
 #include "tests/gui/drag_under_test.h"
@@ -266,6 +269,20 @@ class ShortcutsTest : public QObject {
             if (command.tool_group > 0) QVERIFY2(lesson_text(command).endsWith(QLatin1Char('.')), command.name);
         }
         QCOMPARE(lesson_text(command_of(CommandId::about)), QString());
+    }
+
+    void every_field_of_the_panels_says_what_it_is_for() {
+        DragUnderTest test("cube.msh");
+        auto* tabs = test.find<QTabWidget>("operations_tabs");
+        QStringList silent;
+        for (QWidget* field : tabs->findChildren<QWidget*>()) {
+            const bool is_field = qobject_cast<QComboBox*>(field) || qobject_cast<QAbstractSpinBox*>(field) ||
+                                  qobject_cast<QCheckBox*>(field) || qobject_cast<QToolButton*>(field);
+            if (is_field && !field->objectName().isEmpty() && field->toolTip().isEmpty()) silent << field->objectName();
+        }
+        silent.removeAll(QStringLiteral("ScrollLeftButton"));
+        silent.removeAll(QStringLiteral("ScrollRightButton"));
+        QVERIFY2(silent.isEmpty(), qPrintable(silent.join(QLatin1Char(' '))));
     }
 };
 

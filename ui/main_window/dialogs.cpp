@@ -113,7 +113,7 @@ void show_shortcuts(QWidget* parent, const CommandActions& actions, MouseHabits 
         case MouseHabits::gmsh:
             add(tr("Drag elsewhere"), tr("Move a 2D mesh, turn a 3D mesh"));
             add(tr("Right drag"), tr("Move the mesh"));
-            add(tr("Middle drag, Shift+drag elsewhere"), tr("Zoom: up comes closer"));
+            add(tr("Middle drag"), tr("Zoom: up comes closer"));
             break;
         case MouseHabits::blender:
             add(tr("Middle drag"), tr("Move a 2D mesh, turn a 3D mesh"));

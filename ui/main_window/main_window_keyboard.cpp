@@ -40,7 +40,6 @@ MouseMap mouse_map(const Preferences& preferences) {
             map.right = {zoom, pan, zoom};
             break;
         case MouseHabits::gmsh:
-            map.left = {turn, zoom, turn};
             map.middle = {zoom, zoom, zoom};
             map.right = {pan, pan, pan};
             break;
