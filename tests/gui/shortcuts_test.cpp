@@ -206,6 +206,8 @@ class ShortcutsTest : public QObject {
             QVERIFY2(is_there, text);
             QVERIFY(test.table()->topLevelItemCount() < 6);
         }
+        QTest::keyClick(words, Qt::Key_Return);
+        QVERIFY(words->isVisible());
         words->setText(QStringLiteral("no such thing"));
         QCOMPARE(test.table()->topLevelItemCount(), 0);
         QVERIFY(!test.find<QKeySequenceEdit>("shortcut_key")->isEnabled());

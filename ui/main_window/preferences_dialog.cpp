@@ -57,6 +57,8 @@ PreferencesDialog::PreferencesDialog(const CommandActions& actions, EditState& e
     add_page(make_editing(), QStringLiteral("editing"), tr("Editing"));
     add_page(make_keys(), QStringLiteral("keys"), tr("Keys and mouse"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    // Enter belongs to the field that the keyboard is in.
+    buttons->button(QDialogButtonBox::Close)->setAutoDefault(false);
     auto* foot = new QHBoxLayout;
     foot->setContentsMargins(16, 0, 16, 12);
     foot->addWidget(make_label(tr("Changes count at once."), "muted"), 1);
