@@ -283,12 +283,15 @@ QWidget* PreferencesDialog::make_keys() {
     form->addRow(tr("Mouse"), mouse);
     form->addRow(make_check("wheel_is_reversed", tr("Turn the wheel the other way round"),
                             tr("Towards you comes closer, away from you goes back"), &Preferences::wheel_is_reversed));
+    auto* keys = new ShortcutPage(actions_.shortcuts());
+    form->addRow(tr("Keys"), keys->preset_box());
+    align_labels(form);
     auto* page = new QWidget;
     auto* column = new QVBoxLayout(page);
     column->setContentsMargins(16, 16, 16, 8);
     column->setSpacing(8);
     column->addLayout(form);
-    column->addWidget(new ShortcutPage(actions_.shortcuts()), 1);
+    column->addWidget(keys, 1);
     return page;
 }
 

@@ -1,7 +1,6 @@
 #include "ui/main_window/shortcut_page.h"
 
 #include <QComboBox>
-#include <QFormLayout>
 #include <QHBoxLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -13,7 +12,6 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include "ui/panels/form_fields.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -87,9 +85,6 @@ ShortcutPage::ShortcutPage(Shortcuts& shortcuts, QWidget* parent) : QWidget(pare
     message_ = make_paragraph(QString(), "");
     message_->setObjectName(QStringLiteral("shortcut_message"));
 
-    auto* head = make_form();
-    head->setContentsMargins(0, 0, 0, 0);
-    head->addRow(tr("Keys"), preset_);
     auto* fields = new QHBoxLayout;
     fields->setSpacing(8);
     for (QWidget* field : std::initializer_list<QWidget*>{key_, none_, reset_}) fields->addWidget(field);
@@ -103,7 +98,6 @@ ShortcutPage::ShortcutPage(Shortcuts& shortcuts, QWidget* parent) : QWidget(pare
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(8);
-    column->addLayout(head);
     column->addWidget(words_);
     column->addWidget(table_, 1);
     column->addWidget(name_);

@@ -24,6 +24,9 @@ class ShortcutPage : public QWidget {
   public:
     explicit ShortcutPage(Shortcuts& shortcuts, QWidget* parent = nullptr);
 
+    /// The choice of the preset, for the form above the page: who makes the page puts it there.
+    QComboBox* preset_box() const { return preset_; }
+
   private:
     void list_commands();
     void show_keys();
