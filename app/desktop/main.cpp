@@ -8,6 +8,7 @@
 #include <QTimer>
 
 #include "app/desktop/start_up.h"
+#include "app/desktop/translations.h"
 #include "ui/main_window/main_window.h"
 #include "ui/panels/theme.h"
 
@@ -45,7 +46,10 @@ void take_screenshot_when_idle(curvewright::MainWindow& window, const QString& f
     auto* timer = new QTimer(&window);
     timer->setInterval(400);
     QObject::connect(timer, &QTimer::timeout, &window, [&window, file, timer] {
-        if (window.jobs().runner().is_running()) return;
+        // Once more after that: what the last job has changed is to be laid out first.
+        const bool was_idle = timer->property("was_idle").toBool();
+        timer->setProperty("was_idle", !window.jobs().runner().is_running());
+        if (!was_idle || window.jobs().runner().is_running()) return;
         timer->stop();
         const bool is_saved = window.grab().save(file);
         if (!is_saved) std::fprintf(stderr, "%s: cannot be written.\n", qPrintable(file));
@@ -90,6 +94,10 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "curvewright: %s\n", problem.c_str());
         return 1;
     }
+
+    // Words of Qt's in a language that the program does not speak would be a mixture.
+    if (!install_translations(QLocale(), translation_folders(), &application).isEmpty())
+        install_qt_translations(QLocale(), &application);
 
     Theme theme(application);
     MainWindow window(theme);

@@ -264,9 +264,10 @@ class SelectionTest : public QObject {
         test.edit().select_nodes(test.group("right"));
         const Coordinates opened = test.positions();
         // Near the tip of the arrow to the right from the middle of the right side.
-        const QPoint pivot = test.at(1.0, 0.5), tip = pivot + QPoint(60, 0);
+        const int rim = static_cast<int>(test.view().free_area().right()) - 56;
+        const QPoint pivot(std::min(test.at(1.0, 0.5).x(), rim), test.at(1.0, 0.5).y()), tip = pivot + QPoint(45, 0);
         test.point_at(tip);
-        QVERIFY(test.text("hint").contains(QStringLiteral("along x")));
+        QVERIFY(QTest::qWaitFor([&] { return test.text("hint").contains(QStringLiteral("along x")); }));
         QTest::mousePress(&test.view(), Qt::LeftButton, {}, tip);
         QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));
         test.mouse = tip;
@@ -323,9 +324,11 @@ class SelectionTest : public QObject {
         const Coordinates opened = test.positions();
         const QPoint middle = test.at(1.0, 0.5);
         QVERIFY(middle.x() > test.view().width() + 50);
-        const QPoint tip(test.view().width() - 104 + 60, middle.y());
+        const int rim = static_cast<int>(test.view().free_area().right());
+        QVERIFY(rim < test.view().width());  // the legend is there
+        const QPoint tip(rim - 56 + 45, middle.y());
         test.point_at(tip);
-        QVERIFY2(test.text("hint").contains(QStringLiteral("along x")), qPrintable(test.text("hint")));
+        QVERIFY(QTest::qWaitFor([&] { return test.text("hint").contains(QStringLiteral("along x")); }));
         QTest::mousePress(&test.view(), Qt::LeftButton, {}, tip);
         QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));
         test.mouse = tip;
@@ -335,7 +338,7 @@ class SelectionTest : public QObject {
         QVERIFY(std::abs(opened(node, 0) - test.positions()(node, 0) - 40 * test.unit()) < 1.5 * test.unit());
         test.click("tool_undo");
         // A turn is about the middle of the selection, wherever its ring is.
-        const QPoint ring(test.view().width() - 104 + 34, middle.y() - 34);
+        const QPoint ring(rim - 56 + 34, middle.y() - 34);
         test.point_at(ring);
         QTest::mousePress(&test.view(), Qt::LeftButton, {}, ring);
         QVERIFY(QTest::qWaitFor([&] { return test.drag().is_live(); }, 20000));

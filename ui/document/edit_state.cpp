@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/deform/shapes.h"
+#include "ui/document/preferences.h"
 
 namespace curvewright {
 
@@ -31,7 +32,37 @@ Eigen::RowVector3d snapped(const SnapSettings& snap, const Eigen::RowVector3d& p
     return point;
 }
 
-EditState::EditState(MeshDocument& document, QObject* parent) : QObject(parent), document_(document) {
+EditSettings load_edit_settings() {
+    const QSettings stored;
+    EditSettings settings;
+    const auto read_bool = [&](const QString& key, bool fallback) {
+        const QString text = stored.value(key).toString();
+        return text == QLatin1String("true") || (fallback && text != QLatin1String("false"));
+    };
+    settings.unit = read_enum(stored, QStringLiteral("edit/unit"), GrabUnit::boundary, settings.unit);
+    settings.is_soft = read_bool(QStringLiteral("edit/is_soft"), settings.is_soft);
+    settings.soft.falloff = read_enum(stored, QStringLiteral("edit/falloff"), Falloff::sharp, settings.soft.falloff);
+    settings.soft.follows_boundary = read_bool(QStringLiteral("edit/follows_boundary"), settings.soft.follows_boundary);
+    settings.select.what =
+        read_enum(stored, QStringLiteral("edit/select_what"), SelectWhat::elements, settings.select.what);
+    settings.select.is_lasso = read_bool(QStringLiteral("edit/select_lasso"), settings.select.is_lasso);
+    settings.select.sees_through = read_bool(QStringLiteral("edit/select_through"), settings.select.sees_through);
+    return settings;
+}
+
+void store_edit_settings(const EditSettings& settings) {
+    QSettings stored;
+    stored.setValue(QStringLiteral("edit/unit"), static_cast<int>(settings.unit));
+    stored.setValue(QStringLiteral("edit/is_soft"), settings.is_soft);
+    stored.setValue(QStringLiteral("edit/falloff"), static_cast<int>(settings.soft.falloff));
+    stored.setValue(QStringLiteral("edit/follows_boundary"), settings.soft.follows_boundary);
+    stored.setValue(QStringLiteral("edit/select_what"), static_cast<int>(settings.select.what));
+    stored.setValue(QStringLiteral("edit/select_lasso"), settings.select.is_lasso);
+    stored.setValue(QStringLiteral("edit/select_through"), settings.select.sees_through);
+}
+
+EditState::EditState(MeshDocument& document, QObject* parent)
+    : QObject(parent), document_(document), settings_(load_edit_settings()) {
     connect(&document, &MeshDocument::opened, this, &EditState::start_anew);
     // Renumbering keeps the nodes and elements where they are in the lists, but not the facets.
     connect(&document, &MeshDocument::state_changed, this, [this] {
@@ -53,7 +84,7 @@ void EditState::start_anew() {
         const auto box = bounding_box(*document_.state().mesh);
         const double diagonal = (box.row(1) - box.row(0)).norm();
         // Two digits are enough, and easier to read.
-        const double rough = diagonal > 0.0 ? 0.08 * diagonal : 1.0;
+        const double rough = diagonal > 0.0 ? 0.01 * Preferences::load().soft_radius_percent * diagonal : 1.0;
         const double unit = std::pow(10.0, std::floor(std::log10(rough)) - 1.0);
         settings_.soft.radius = std::round(rough / unit) * unit;
         settings_.snap = {};
@@ -87,7 +118,14 @@ void EditState::set_spokes(Spokes spokes) {
 }
 
 void EditState::set_settings(const EditSettings& settings) {
+    const bool is_to_be_kept = settings.unit != settings_.unit || settings.is_soft != settings_.is_soft ||
+                               settings.soft.falloff != settings_.soft.falloff ||
+                               settings.soft.follows_boundary != settings_.soft.follows_boundary ||
+                               settings.select.what != settings_.select.what ||
+                               settings.select.is_lasso != settings_.select.is_lasso ||
+                               settings.select.sees_through != settings_.select.sees_through;
     settings_ = settings;
+    if (is_to_be_kept) store_edit_settings(settings_);
     emit settings_changed();
 }
 

@@ -64,6 +64,11 @@ struct EditSettings {
     DragRules rules;  ///< what the rest of the boundary does, and how a drag ends
 };
 
+/// What of the settings outlives the program: what a press takes, the soft selection but for its radius, what the
+/// select tool selects. Radius, direction and snapping belong to a mesh.
+EditSettings load_edit_settings();
+void store_edit_settings(const EditSettings& settings);
+
 /// The position that a point snaps to. pre: target is not `nothing`. A point for which the projection is undefined (the
 /// centre of the circle) stays.
 Eigen::RowVector3d snapped(const SnapSettings& snap, const Eigen::RowVector3d& point);

@@ -159,6 +159,18 @@ bool Journal::is_working() const {
     return lock_->isLocked() && writer_->is_working();
 }
 
+void Journal::set_keeping(bool keeps) {
+    if (keeps == keeps_) return;
+    keeps_ = keeps;
+    if (!keeps) {
+        if (has_begun_) writer_->remove(file());
+        has_begun_ = false;
+        records_ = 0;
+    } else if (document_.history()->count() > 0) {
+        begin();
+    }
+}
+
 void Journal::finish_writing() {
     writer_->wait();
 }
@@ -175,7 +187,7 @@ void Journal::start_anew() {
 }
 
 void Journal::begin() {
-    if (!lock_->isLocked()) return;
+    if (!keeps_ || !lock_->isLocked()) return;
     has_begun_ = true;
     writer_->set_file(file(), 0);
     told_path_ = document_.file_path();

@@ -36,6 +36,8 @@ class Journal : public QObject {
     bool is_working() const;
     /// Waits until everything that was done is on disk.
     void finish_writing();
+    /// Whether work is written down from now on (at first it is); what is there of this program goes otherwise.
+    void set_keeping(bool keeps);
 
     /// Work of programs that are no longer alive, the latest first. It is reserved for this program until it is
     /// discarded or taken over, so that two windows do not offer the same.
@@ -60,7 +62,7 @@ class Journal : public QObject {
 
     MeshDocument& document_;
     QString folder_, stem_;
-    bool has_begun_ = false;
+    bool has_begun_ = false, keeps_ = true;
     quint32 records_ = 0;  ///< written, or waiting to be
     int told_clean_ = 0;   ///< that the file knows
     QString told_path_;

@@ -9,6 +9,7 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "ui/document/core_words.h"
 #include "ui/document/number_format.h"
 
 namespace curvewright {
@@ -50,9 +51,7 @@ QString describe_elements(const MeshTopology& topology) {
         if (dimension(block.type.shape) == topology.dimension()) counts[block.type] += block.size();
     QStringList parts;
     for (const auto& [type, count] : counts) {
-        QString shape = QString::fromStdString(counted_name(type.shape, count));
-        shape = shape.mid(shape.indexOf(QLatin1Char(' ')) + 1);
-        parts << QStringLiteral("P%1 · %2 %3").arg(type.order).arg(format_count(count), shape);
+        parts << QStringLiteral("P%1 · %2 %3").arg(type.order).arg(format_count(count), shape_name(type.shape, count));
     }
     return parts.isEmpty() ? tr("no elements") : parts.join(QStringLiteral(", "));
 }

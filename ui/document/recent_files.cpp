@@ -3,6 +3,8 @@
 #include <QFileInfo>
 #include <QSettings>
 
+#include "ui/document/preferences.h"
+
 namespace curvewright {
 namespace {
 const QString key = QStringLiteral("recent_files");
@@ -12,7 +14,7 @@ QStringList RecentFiles::paths() const {
     QStringList present;
     for (const QString& path : QSettings().value(key).toStringList())
         if (QFileInfo::exists(path)) present << path;
-    return present;
+    return present.mid(0, Preferences::load().recent_count);
 }
 
 void RecentFiles::add(const QString& path) {
@@ -20,7 +22,7 @@ void RecentFiles::add(const QString& path) {
     QStringList list = paths();
     list.removeAll(absolute);
     list.prepend(absolute);
-    QSettings().setValue(key, QStringList(list.mid(0, max_count)));
+    QSettings().setValue(key, QStringList(list.mid(0, Preferences::load().recent_count)));
     emit changed();
 }
 

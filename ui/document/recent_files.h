@@ -12,8 +12,7 @@ class RecentFiles : public QObject {
   public:
     using QObject::QObject;
 
-    static constexpr int max_count = 8;
-
+    /// At most as many as the preferences say.
     QStringList paths() const;
     void add(const QString& path);
     void clear();

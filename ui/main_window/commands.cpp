@@ -4,6 +4,8 @@
 #include <QCoreApplication>
 #include <QKeySequence>
 
+#include "ui/main_window/shortcuts.h"
+
 namespace curvewright {
 namespace {
 
@@ -25,6 +27,8 @@ const Command command_list[] = {
     {CommandId::undo, CommandMenu::edit, "undo", TEXT("&Undo"), TEXT("Undo the last step"), "undo", "Ctrl+Z", false, false, 2},
     {CommandId::redo, CommandMenu::edit, "redo", TEXT("&Redo"), TEXT("Redo the step undone last"), "redo", "Ctrl+Y; Ctrl+Shift+Z", false, false, 2},
     {CommandId::copy_command, CommandMenu::edit, "copy_command", TEXT("Copy as &command line"), TEXT("Copy what leads to this mesh as a command for a terminal"), "", "Ctrl+Shift+C"},
+    {CommandId::find, CommandMenu::edit, "find", TEXT("&Find node or element…"), TEXT("Select nodes and elements by their tags"), "", "Ctrl+F"},
+    {CommandId::preferences, CommandMenu::edit, "preferences", TEXT("Pr&eferences…"), TEXT("Choose look, keys and habits of the program"), "", "Ctrl+,"},
     {CommandId::tool_look, CommandMenu::edit, "tool_look", TEXT("&Look around"), TEXT("The mouse moves the view and asks about elements"), "look", "V", true, true, 3},
     {CommandId::tool_select, CommandMenu::edit, "tool_select", TEXT("&Select"), TEXT("Select nodes and elements by click, box or lasso"), "select", "S", true, false, 3},
     {CommandId::tool_drag, CommandMenu::edit, "tool_drag", TEXT("&Drag the boundary"), TEXT("Take hold of the boundary; the mesh follows"), "drag", "D", true, false, 3},
@@ -49,6 +53,8 @@ const Command command_list[] = {
     {CommandId::stop, CommandMenu::mesh, "stop", TEXT("&Stop"), TEXT("Stop the running job; the mesh stays as it is"), "stop", "Esc", false, true, 4, true},
     {CommandId::fit, CommandMenu::view, "fit", TEXT("&Fit"), TEXT("Show the whole mesh"), "fit", "F; Home", false, false, 5},
     {CommandId::fit_selection, CommandMenu::view, "fit_selection", TEXT("Fit the &selection"), TEXT("Show what is selected as large as it goes"), "", "Shift+F"},
+    {CommandId::zoom_in, CommandMenu::view, "zoom_in", TEXT("Zoom &in"), TEXT("Come closer"), "", "Ctrl++; Ctrl+="},
+    {CommandId::zoom_out, CommandMenu::view, "zoom_out", TEXT("Zoom &out"), TEXT("Go back a little"), "", "Ctrl+-"},
     {CommandId::look_front, CommandMenu::look, "look_front", TEXT("From the &front (+y)"), TEXT("Look along +y"), "", "Alt+Y"},
     {CommandId::look_back, CommandMenu::look, "look_back", TEXT("From the &back (−y)"), TEXT("Look along −y"), "", "Alt+Shift+Y"},
     {CommandId::look_left, CommandMenu::look, "look_left", TEXT("From the &left (+x)"), TEXT("Look along +x"), "", "Alt+X"},
@@ -72,6 +78,11 @@ const Command command_list[] = {
     {CommandId::theme_system, CommandMenu::theme, "theme_system", TEXT("Follow the &system"), TEXT("Light or dark, as the system is"), "", "", true},
     {CommandId::theme_light, CommandMenu::theme, "theme_light", TEXT("&Light"), TEXT("Dark text on light ground"), "", "", true},
     {CommandId::theme_dark, CommandMenu::theme, "theme_dark", TEXT("&Dark"), TEXT("Light text on dark ground"), "", "", true},
+    {CommandId::panel_mesh, CommandMenu::panels, "panel_mesh", TEXT("&Mesh and history"), TEXT("Show or hide the panel of the mesh, its groups and its history"), "", "F7", true},
+    {CommandId::panel_operations, CommandMenu::panels, "panel_operations", TEXT("&Operations"), TEXT("Show or hide the panel of the tabs and of the worst elements"), "", "F8", true},
+    {CommandId::panel_quality, CommandMenu::panels, "panel_quality", TEXT("&Histograms"), TEXT("Show or hide the panel of the histograms"), "", "F9", true},
+    {CommandId::next_area, CommandMenu::panels, "next_area", TEXT("Keyboard to the &next area"), TEXT("Move the keyboard from the view to the panels, one after another"), "", "F6", false, true},
+    {CommandId::previous_area, CommandMenu::panels, "previous_area", TEXT("Keyboard to the &previous area"), TEXT("Move the keyboard the other way round"), "", "Shift+F6"},
     {CommandId::reset_layout, CommandMenu::view, "reset_layout", TEXT("&Reset layout"), TEXT("Put all panels back where they were at first"), "", "", false, true},
     {CommandId::palette, CommandMenu::help, "palette", TEXT("&Find a command…"), TEXT("Type what you want to do"), "", "Ctrl+K"},
     {CommandId::shortcuts, CommandMenu::help, "shortcuts", TEXT("&Keyboard and mouse"), TEXT("List all shortcuts"), "help", "F1"},
@@ -83,13 +94,6 @@ const Command command_list[] = {
 
 QString translated(const char* text) {
     return QCoreApplication::translate("Command", text);
-}
-
-QList<QKeySequence> shortcuts_of(const Command& command) {
-    QList<QKeySequence> keys;
-    for (const QString& key : QString::fromLatin1(command.shortcuts).split(QStringLiteral("; "), Qt::SkipEmptyParts))
-        keys << QKeySequence(key, QKeySequence::PortableText);
-    return keys;
 }
 
 }  // namespace
@@ -106,7 +110,18 @@ QString help_text(const Command& command) {
     return translated(command.help);
 }
 
-CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(parent) {
+QString tool_tip(const Command& command, const QString& key, const QString& name) {
+    // Rich text is the only kind that wraps.
+    QString head = QStringLiteral("<b>%1</b>").arg((name.isEmpty() ? plain_text(command) : name).toHtmlEscaped());
+    if (!key.isEmpty()) head += QStringLiteral("&nbsp;&nbsp; ") + key.toHtmlEscaped();
+    QString text = help_text(command).toHtmlEscaped() + QLatin1Char('.');
+    if (const QString lesson = lesson_text(command); !lesson.isEmpty())
+        text += QStringLiteral("<br/>") + lesson.toHtmlEscaped();
+    return QStringLiteral("<p style='margin:0'>%1</p><p style='margin:0'>%2</p>").arg(head, text);
+}
+
+CommandActions::CommandActions(const Theme& theme, QObject* parent)
+    : QObject(parent), shortcuts_(new Shortcuts(this)) {
     for (const Command& command : commands()) {
         auto* action = new QAction(translated(command.text), parent);
         action->setObjectName(QLatin1String(command.name));
@@ -114,17 +129,24 @@ CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(pa
         // The blank keeps the text of a tool button off its icon: style sheets have no word for that distance.
         action->setIconText(QLatin1Char(' ') + plain_text(command));
         action->setStatusTip(help_text(command));
-        const QList<QKeySequence> keys = shortcuts_of(command);
-        action->setShortcuts(keys);
-        QString tip = help_text(command);
-        if (!keys.isEmpty()) tip += QStringLiteral(" (%1)").arg(keys.front().toString(QKeySequence::NativeText));
-        action->setToolTip(tip);
         actions_[command.id] = action;
     }
     actions_.at(CommandId::quit)->setMenuRole(QAction::QuitRole);
     actions_.at(CommandId::about)->setMenuRole(QAction::AboutRole);
     refresh_icons(theme);
     connect(&theme, &Theme::changed, this, [this, &theme] { refresh_icons(theme); });
+    refresh_keys();
+    connect(shortcuts_, &Shortcuts::changed, this, &CommandActions::refresh_keys);
+}
+
+void CommandActions::refresh_keys() {
+    // First none: two actions must not have the same key even for a moment.
+    for (const Command& command : commands()) actions_.at(command.id)->setShortcuts(QList<QKeySequence>());
+    for (const Command& command : commands()) {
+        QAction* action = actions_.at(command.id);
+        action->setShortcuts(shortcuts_->keys(command.id));
+        action->setToolTip(tool_tip(command, action->shortcut().toString(QKeySequence::NativeText)));
+    }
 }
 
 void CommandActions::refresh_icons(const Theme& theme) {

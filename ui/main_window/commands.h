@@ -11,6 +11,8 @@ class QAction;
 
 namespace curvewright {
 
+class Shortcuts;
+
 enum class CommandId {
     open,
     load_deformation,
@@ -26,6 +28,8 @@ enum class CommandId {
     undo,
     redo,
     copy_command,
+    find,
+    preferences,
     tool_look,
     tool_select,
     tool_drag,
@@ -50,6 +54,8 @@ enum class CommandId {
     stop,
     fit,
     fit_selection,
+    zoom_in,
+    zoom_out,
     look_front,
     look_back,
     look_left,
@@ -73,6 +79,11 @@ enum class CommandId {
     theme_system,
     theme_light,
     theme_dark,
+    panel_mesh,
+    panel_operations,
+    panel_quality,
+    next_area,
+    previous_area,
     reset_layout,
     palette,
     shortcuts,
@@ -80,7 +91,7 @@ enum class CommandId {
 };
 
 /// Where a command stands in the menu bar.
-enum class CommandMenu { file, edit, select, mesh, view, look, bookmarks, theme, help };
+enum class CommandMenu { file, edit, select, mesh, view, look, bookmarks, theme, help, panels };
 
 /// One command of the window. Menus, tool bar, tool tips, the page of shortcuts and the tests all read commands().
 struct Command {
@@ -104,8 +115,13 @@ std::span<const Command> commands();
 /// The text of a command for people: translated, without mnemonic and dots.
 QString plain_text(const Command& command);
 QString help_text(const Command& command);
+/// When or why one wants it, a sentence; "" = its help says it all.
+QString lesson_text(const Command& command);
+/// What a pointer on the command tells: its name and key, what it does, when one wants it. name: instead of the
+/// command's own.
+QString tool_tip(const Command& command, const QString& key, const QString& name = {});
 
-/// One QAction per command, child of the given object.
+/// One QAction per command, child of the given object; they have the keys that Shortcuts says.
 class CommandActions : public QObject {
     Q_OBJECT
 
@@ -113,11 +129,14 @@ class CommandActions : public QObject {
     CommandActions(const Theme& theme, QObject* parent);
 
     QAction* operator[](CommandId id) const { return actions_.at(id); }
+    Shortcuts& shortcuts() const { return *shortcuts_; }
 
   private:
     void refresh_icons(const Theme& theme);
+    void refresh_keys();
 
     std::map<CommandId, QAction*> actions_;
+    Shortcuts* shortcuts_;
 };
 
 }  // namespace curvewright

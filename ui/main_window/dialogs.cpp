@@ -14,6 +14,7 @@
 #include <QVBoxLayout>
 
 #include "ui/main_window/commands.h"
+#include "ui/main_window/shortcuts.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -82,48 +83,79 @@ Dialogs Dialogs::standard() {
     return dialogs;
 }
 
-void show_shortcuts(QWidget* parent) {
+void show_shortcuts(QWidget* parent, const CommandActions& actions, MouseHabits mouse) {
     auto* dialog = new QDialog(parent);
     dialog->setObjectName(QStringLiteral("shortcuts_dialog"));
     dialog->setWindowTitle(tr("Keyboard and mouse"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     auto* page = new QWidget;
     auto* grid = new QGridLayout(page);
+    grid->setContentsMargins(12, 12, 12, 12);
     grid->setHorizontalSpacing(24);
     grid->setVerticalSpacing(4);
     int row = 0;
     const auto add = [&](const QString& keys, const QString& text) {
-        grid->addWidget(make_label(keys, "title"), row, 0);
-        grid->addWidget(make_label(text, ""), row++, 1);
+        grid->addWidget(make_label(keys, "title"), row, 0, Qt::AlignTop);
+        grid->addWidget(make_paragraph(text, ""), row++, 1);
     };
-    grid->addWidget(make_label(tr("Mouse"), "section"), row++, 0, 1, 2);
+    const auto begin = [&](const QString& name) {
+        if (row > 0) grid->setRowMinimumHeight(row++, 8);
+        grid->addWidget(make_label(name, "section"), row++, 0, 1, 2);
+    };
+    begin(tr("Mouse"));
     add(tr("Wheel"), tr("Zoom, in 2D to the pointer"));
     add(tr("Drag a boundary node"), tr("With the drag tool: move it; the mesh follows"));
     add(tr("Wheel while dragging"), tr("Take more or fewer neighbours along"));
-    add(tr("X, Y, Z, N while dragging"), tr("Keep to an axis or to the normal; again: free"));
     add(tr("Shift+drag, Ctrl+drag"), tr("With the drag tool: along the normal; without snapping"));
-    add(tr("Drag elsewhere, right drag"), tr("Move a 2D mesh, turn a 3D mesh"));
-    add(tr("Shift+drag, middle drag"), tr("Move the mesh"));
+    switch (mouse) {
+        case MouseHabits::curvewright:
+            add(tr("Drag elsewhere, right drag"), tr("Move a 2D mesh, turn a 3D mesh"));
+            add(tr("Shift+drag, middle drag"), tr("Move the mesh"));
+            break;
+        case MouseHabits::paraview:
+            add(tr("Drag elsewhere"), tr("Move a 2D mesh, turn a 3D mesh"));
+            add(tr("Middle drag"), tr("Move the mesh"));
+            add(tr("Right drag"), tr("Zoom: up comes closer"));
+            break;
+        case MouseHabits::gmsh:
+            add(tr("Drag elsewhere"), tr("Move a 2D mesh, turn a 3D mesh"));
+            add(tr("Right drag"), tr("Move the mesh"));
+            add(tr("Middle drag"), tr("Zoom: up comes closer"));
+            break;
+        case MouseHabits::blender:
+            add(tr("Middle drag"), tr("Move a 2D mesh, turn a 3D mesh"));
+            add(tr("Shift+middle drag"), tr("Move the mesh"));
+            add(tr("Ctrl+middle drag"), tr("Zoom: up comes closer"));
+            break;
+    }
     add(tr("Click"), tr("Tell about the element, the bar of a histogram or the group"));
-    grid->setRowMinimumHeight(row++, 8);
-    grid->addWidget(make_label(tr("Keyboard"), "section"), row++, 0, 1, 2);
+    begin(tr("Keys of the view and of the panels"));
+    for (const FixedKeys& fixed : fixed_keys()) add(fixed_name(fixed), fixed_text(fixed));
+    begin(tr("Commands, keys: %1").arg(preset_text(actions.shortcuts().preset())));
     for (const Command& command : commands()) {
-        QStringList keys;
-        for (const QString& key :
-             QString::fromLatin1(command.shortcuts).split(QStringLiteral("; "), Qt::SkipEmptyParts))
-            keys << QKeySequence(key, QKeySequence::PortableText).toString(QKeySequence::NativeText);
-        if (!keys.isEmpty()) add(keys.join(tr(" or ")), help_text(command));
+        const QList<QKeySequence>& keys = actions.shortcuts().keys(command.id);
+        if (!keys.isEmpty()) add(keys_text(keys), help_text(command));
     }
     add(tr("Ctrl+1 … Ctrl+9"), tr("Go to a bookmark of the view"));
     grid->setColumnStretch(1, 1);
     auto* scroll = new QScrollArea;
     scroll->setWidgetResizable(true);
+    scroll->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     scroll->setWidget(page);
+    auto* change = new QPushButton(tr("Change…"));
+    change->setObjectName(QStringLiteral("change_shortcuts"));
+    change->setToolTip(tr("Choose other keys, or those of another program"));
     auto* buttons = new QDialogButtonBox(QDialogButtonBox::Close);
+    buttons->addButton(change, QDialogButtonBox::ActionRole);
     auto* layout = new QVBoxLayout(dialog);
     layout->addWidget(scroll);
     layout->addWidget(buttons);
     QObject::connect(buttons, &QDialogButtonBox::rejected, dialog, &QDialog::close);
+    QObject::connect(change, &QPushButton::clicked, dialog, [dialog, action = actions[CommandId::preferences]] {
+        dialog->close();
+        action->trigger();
+    });
+    scroll->setFocus();
     dialog->resize(760, 600);
     dialog->show();
 }

@@ -4,9 +4,13 @@
 
 #include <QString>
 
+#include "ui/document/preferences.h"
+
 class QWidget;
 
 namespace curvewright {
+
+class CommandActions;
 
 enum class UnsavedAnswer { save, discard, cancel };
 
@@ -33,8 +37,8 @@ struct Dialogs {
     static Dialogs standard();
 };
 
-/// The page of Help > Keyboard and mouse.
-void show_shortcuts(QWidget* parent);
+/// The page of Help > Keyboard and mouse: all keys as they are now.
+void show_shortcuts(QWidget* parent, const CommandActions& actions, MouseHabits mouse);
 void show_about(QWidget* parent);
 
 }  // namespace curvewright

@@ -12,6 +12,7 @@
 #include <QStatusBar>
 #include <QTabWidget>
 
+#include "ui/document/core_words.h"
 #include "ui/document/mesh_text.h"
 #include "ui/document/number_format.h"
 #include "ui/main_window/command_palette.h"
@@ -80,6 +81,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_colors();
     connect_session();
     connect_views();
+    connect_keyboard();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
         if (saved_theme == QLatin1String(entry.name)) actions_[entry.command]->setChecked(true);
@@ -123,7 +125,7 @@ void MainWindow::connect_commands() {
     on(CommandId::stop, [this] { jobs_.runner().cancel(); });
     on(CommandId::reset_layout, &MainWindow::reset_layout);
     on(CommandId::palette, [this] { (new CommandPalette(actions_, this))->open(); });
-    on(CommandId::shortcuts, [this] { show_shortcuts(this); });
+    on(CommandId::shortcuts, [this] { show_shortcuts(this, actions_, preferences_.mouse); });
     on(CommandId::about, [this] { show_about(this); });
     for (const auto& entry : look_commands)
         on(entry.command, [this, direction = entry.direction] { view_->look(direction); });
@@ -256,8 +258,10 @@ void MainWindow::update_commands() {
     for (const CommandId id : {CommandId::save, CommandId::save_as, CommandId::export_mesh, CommandId::save_session,
                                CommandId::copy_command, CommandId::close_mesh})
         actions_[id]->setEnabled(is_idle && has_mesh);
-    for (const CommandId id : {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes,
-                               CommandId::legend, CommandId::colors, CommandId::shrink, CommandId::compare})
+    for (const CommandId id :
+         {CommandId::save_picture, CommandId::fit, CommandId::edges, CommandId::nodes, CommandId::legend,
+          CommandId::colors, CommandId::shrink, CommandId::compare, CommandId::zoom_in, CommandId::zoom_out,
+          CommandId::panel_mesh, CommandId::panel_operations, CommandId::panel_quality, CommandId::find})
         actions_[id]->setEnabled(has_mesh);
     for (const CommandId id : {CommandId::node_numbers, CommandId::element_numbers}) actions_[id]->setEnabled(has_mesh);
     const bool is_3d = has_mesh && document_.state().mesh->topology().dimension() == 3;
@@ -289,13 +293,15 @@ void MainWindow::update_commands() {
     actions_[CommandId::unpin_all]->setEnabled(!edit_.pins().empty());
     mesh_panel_->set_history_enabled(is_idle);
 
-    const auto step_tip = [](QAction* action, const QString& verb, const QString& step) {
-        const QString keys = action->shortcut().toString(QKeySequence::NativeText);
-        action->setToolTip(step.isEmpty() ? QStringLiteral("%1 (%2)").arg(verb, keys)
-                                          : QStringLiteral("%1: %2 (%3)").arg(verb, step, keys));
+    const auto step_tip = [this](CommandId id, const QString& step) {
+        const auto found = std::find_if(commands().begin(), commands().end(),
+                                        [&](const Command& command) { return command.id == id; });
+        const QString name = plain_text(*found);
+        actions_[id]->setToolTip(tool_tip(*found, actions_[id]->shortcut().toString(QKeySequence::NativeText),
+                                          step.isEmpty() ? name : tr("%1: %2").arg(name, step)));
     };
-    step_tip(actions_[CommandId::undo], tr("Undo"), document_.history()->undoText());
-    step_tip(actions_[CommandId::redo], tr("Redo"), document_.history()->redoText());
+    step_tip(CommandId::undo, document_.history()->undoText());
+    step_tip(CommandId::redo, document_.history()->redoText());
 }
 
 void MainWindow::update_options() {
@@ -374,7 +380,7 @@ void MainWindow::tell_element(std::optional<Index> element) {
     const Eigen::RowVector3d center = state.mesh->element_center(*element);
     QString text = tr("Element %1, %2, centre (%3, %4, %5)")
                        .arg(topology.element_tag(*element).value)
-                       .arg(QString::fromStdString(name(topology.element_type(*element))), format_number(center.x()),
+                       .arg(type_name(topology.element_type(*element)), format_number(center.x()),
                             format_number(center.y()), format_number(center.z()));
     if (state.quality) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(*element)];

@@ -9,6 +9,7 @@
 #include "ui/document/edit_state.h"
 #include "ui/document/journal.h"
 #include "ui/document/mesh_document.h"
+#include "ui/document/preferences.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
 #include "ui/document/view_bookmarks.h"
@@ -23,6 +24,7 @@
 class QDockWidget;
 class QLabel;
 class QMenu;
+class QSplitter;
 class QStackedWidget;
 class QTabWidget;
 
@@ -35,6 +37,7 @@ class DeformPanel;
 class EditPanel;
 class MeshPanel;
 class MeshView;
+class Nudge;
 class PointerTag;
 class QualityPanel;
 class SelectionPanel;
@@ -129,8 +132,16 @@ class MainWindow : public QMainWindow {
     void show_coloring();
     /// The bars over the view, below each other.
     void place_bars();
+    // main_window_keyboard.cpp
+    void connect_keyboard();
+    /// Moves the keyboard to the next (1) or the previous (-1) of the view and the panels.
+    void go_to_area(int step);
+    void show_found();
+    void apply_preferences();
 
     // main_window_session.cpp
+    /// If the preferences say so and nothing else is open or being opened.
+    void open_last_mesh();
     void connect_session();
     void offer_lost_work();
     void recover(const LostWork& lost);
@@ -170,6 +181,7 @@ class MainWindow : public QMainWindow {
     SampleCatalog samples_;
     ViewBookmarks bookmarks_;
     std::unique_ptr<Journal> journal_;
+    Preferences preferences_;
     CommandActions actions_;
 
     QStackedWidget* center_ = nullptr;
@@ -181,11 +193,13 @@ class MainWindow : public QMainWindow {
     ClipBar* clip_bar_ = nullptr;
     ColorBar* color_bar_ = nullptr;
     PointerTag* pointer_tag_ = nullptr;
+    Nudge* nudge_ = nullptr;
     std::map<CommandId, Tool*> tools_;
     EditPanel* edit_panel_ = nullptr;
     SelectionPanel* selection_panel_ = nullptr;
     MeshPanel* mesh_panel_ = nullptr;
     QTabWidget* tabs_ = nullptr;
+    QSplitter* right_splitter_ = nullptr;
     DeformPanel* deform_panel_ = nullptr;
     WarpPanel* warp_panel_ = nullptr;
     UntanglePanel* untangle_panel_ = nullptr;

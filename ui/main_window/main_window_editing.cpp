@@ -125,10 +125,8 @@ void MainWindow::choose_tool_for_mesh() {
     if (!document_.has_mesh()) return;
     const bool is_flat = document_.state().mesh->topology().dimension() < 3;
     // On a flat mesh there is room beside the boundary for the camera; the surface of a solid is all boundary.
-    const QString chosen =
-        QSettings()
-            .value(tool_setting(), is_flat ? QStringLiteral("tool_drag") : QStringLiteral("tool_look"))
-            .toString();
+    const QString usual = is_flat ? QStringLiteral("tool_drag") : QStringLiteral("tool_look");
+    const QString chosen = preferences_.remembers_tool ? QSettings().value(tool_setting(), usual).toString() : usual;
     for (const auto& [id, tool] : tools_)
         if (actions_[id]->objectName() == chosen) actions_[id]->setChecked(true);
 }

@@ -37,12 +37,14 @@ namespace curvewright {
 namespace {
 
 constexpr int layout_version = 1;
+const QList<int> right_sizes{420, 236};  ///< tabs, worst elements
 
 /// A panel that scrolls when it is higher than its dock.
 QScrollArea* scrolling(QWidget* panel) {
     auto* area = new QScrollArea;
     area->setWidgetResizable(true);
     area->setFrameShape(QFrame::NoFrame);
+    area->setFocusPolicy(Qt::NoFocus);  // Tab goes to the fields
     area->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     area->setWidget(panel);
     return area;
@@ -64,6 +66,7 @@ void MainWindow::build_menus() {
     recent_menu_ = new QMenu(tr("Open &recent"), this);
     samples_menu_ = new QMenu(tr("Sa&mples"), this);
     panels_menu_ = new QMenu(tr("&Panels"), this);
+    menus[CommandMenu::panels] = panels_menu_;
 
     for (const Command& command : commands()) {
         QMenu* menu = menus.at(command.menu);
@@ -171,7 +174,6 @@ QDockWidget* MainWindow::add_dock(const QString& name, const QString& title, Qt:
     dock->setWidget(content);
     dock->setFeatures(QDockWidget::DockWidgetClosable | QDockWidget::DockWidgetMovable);
     addDockWidget(area, dock);
-    panels_menu_->addAction(dock->toggleViewAction());
     dock->setProperty("closed_by_user", QSettings().value(QStringLiteral("window/closed_") + name, false));
     connect(dock->toggleViewAction(), &QAction::triggered, dock,
             [dock](bool is_shown) { dock->setProperty("closed_by_user", !is_shown); });
@@ -213,8 +215,9 @@ void MainWindow::build_docks() {
     right->addWidget(worst_table_);
     right->setStretchFactor(0, 0);
     right->setStretchFactor(1, 1);
-    right->setSizes({420, 236});
+    right->setSizes(right_sizes);
     right->setChildrenCollapsible(false);
+    right_splitter_ = right;
 
     left_dock_ = add_dock(QStringLiteral("mesh_dock"), tr("Mesh"), Qt::LeftDockWidgetArea, mesh_panel_);
     right_dock_ = add_dock(QStringLiteral("operations_dock"), tr("Operations"), Qt::RightDockWidgetArea, right);
@@ -246,6 +249,7 @@ void MainWindow::build_status_bar() {
 void MainWindow::restore_layout() {
     first_layout_ = saveState(layout_version);
     const QSettings settings;
+    const Preferences preferences = Preferences::load();
     // No larger than the screen, with room for the frame that the window manager will add.
     const QRect available = screen()->availableGeometry();
     constexpr int frame_width = 8, frame_height = 40;
@@ -255,13 +259,16 @@ void MainWindow::restore_layout() {
     const struct {
         CommandId id;
         bool is_on;
-    } defaults[] = {{CommandId::edges, true},
-                    {CommandId::nodes, false},
-                    {CommandId::legend, true},
+    } defaults[] = {{CommandId::edges, preferences.starts_with_edges},
+                    {CommandId::nodes, preferences.starts_with_nodes},
+                    {CommandId::legend, preferences.starts_with_legend},
                     {CommandId::orthographic, false}};
-    for (const auto& entry : defaults)
-        actions_[entry.id]->setChecked(
-            settings.value(QStringLiteral("view/") + actions_[entry.id]->objectName(), entry.is_on).toBool());
+    for (const auto& entry : defaults) {
+        const QVariant left = settings.value(QStringLiteral("view/") + actions_[entry.id]->objectName());
+        actions_[entry.id]->setChecked(preferences.remembers_drawing && left.isValid() ? left.toBool() : entry.is_on);
+    }
+    right_splitter_->restoreState(settings.value(QStringLiteral("window/right_splitter")).toByteArray());
+    show_tab(settings.value(QStringLiteral("window/tab")).toString());
 }
 
 void MainWindow::save_layout() const {
@@ -270,6 +277,8 @@ void MainWindow::save_layout() const {
     settings.setValue(QStringLiteral("window/state"), saveState(layout_version));
     for (const QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_})
         settings.setValue(QStringLiteral("window/closed_") + dock->objectName(), dock->property("closed_by_user"));
+    settings.setValue(QStringLiteral("window/right_splitter"), right_splitter_->saveState());
+    settings.setValue(QStringLiteral("window/tab"), tabs_->currentWidget()->objectName().chopped(4));
     for (const CommandId id : {CommandId::edges, CommandId::nodes, CommandId::legend, CommandId::orthographic})
         settings.setValue(QStringLiteral("view/") + actions_[id]->objectName(), actions_[id]->isChecked());
 }
@@ -282,6 +291,9 @@ void MainWindow::reset_layout() {
     }
     resizeDocks({left_dock_, right_dock_}, {240, 288}, Qt::Horizontal);
     resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
+    right_splitter_->setSizes(right_sizes);
+    static_cast<QSplitter*>(view_->parentWidget())->setSizes({1000, 1000});
+    tabs_->setCurrentIndex(0);
 }
 
 }  // namespace curvewright

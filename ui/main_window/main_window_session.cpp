@@ -41,6 +41,12 @@ void MainWindow::connect_session() {
     QTimer::singleShot(0, this, &MainWindow::offer_lost_work);
 }
 
+void MainWindow::open_last_mesh() {
+    const QStringList recent = recent_.paths();
+    const bool is_wanted = preferences_.start == StartAction::last_mesh && !recent.isEmpty();
+    if (is_wanted && !document_.has_mesh() && !jobs_.runner().is_running()) open_file(recent.front());
+}
+
 void MainWindow::offer_lost_work() {
     for (const LostWork& lost : journal_->find_lost_work()) {
         const QString name = QFileInfo(lost.mesh_path).fileName();
@@ -57,6 +63,7 @@ void MainWindow::offer_lost_work() {
             return;  // one mesh at a time; the others are offered at the next start
         }
     }
+    open_last_mesh();
 }
 
 void MainWindow::recover(const LostWork& lost) {

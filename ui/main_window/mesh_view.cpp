@@ -27,6 +27,7 @@
 #include <vtkRenderer.h>
 
 #include "ui/main_window/picture_drawing.h"
+#include "ui/scene/interactor_style.h"
 #include "ui/tools/tool.h"
 
 namespace curvewright {
@@ -47,6 +48,8 @@ CameraPose between(const CameraPose& a, const CameraPose& b, double t) {
 }
 
 constexpr int click_distance = 4;  ///< pixels that a click may wander
+constexpr double key_step = 48.0;  ///< pixels that an arrow key moves or turns by
+constexpr double key_zoom = 1.2;   ///< factor of a page key
 
 }  // namespace
 
@@ -54,7 +57,7 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
     : QOpenGLWidget(parent), parts_(std::make_unique<Parts>()) {
     setObjectName(object_name);
     setMouseTracking(true);
-    setFocusPolicy(Qt::ClickFocus);
+    setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(240, 160);
     Parts& parts = *parts_;
 
@@ -591,7 +594,58 @@ void MeshView::keyPressEvent(QKeyEvent* event) {
         return;
     }
     if (parts.tool && parts.tool->key(event->key(), event->modifiers())) return;
+    if (!parts.tool_has_mouse && parts.state.mesh && navigate(*event)) return;
     QOpenGLWidget::keyPressEvent(event);
+}
+
+SceneInteractorStyle* MeshView::camera_style() const {
+    return static_cast<SceneInteractorStyle*>(parts_->interactor->GetInteractorStyle());
+}
+
+void MeshView::set_mouse_map(const MouseMap& map) {
+    camera_style()->set_mouse_map(map);
+}
+
+void MeshView::zoom(double factor) {
+    parts_->flight.stop();
+    camera_style()->zoom_by(factor);
+    if (parts_->tool) parts_->tool->refresh();
+}
+
+bool MeshView::navigate(const QKeyEvent& event) {
+    const Qt::KeyboardModifiers held = event.modifiers() & ~Qt::KeypadModifier;
+    if (held != Qt::NoModifier && held != Qt::ShiftModifier) return false;
+    if (event.key() == Qt::Key_PageUp || event.key() == Qt::Key_PageDown) {
+        if (held != Qt::NoModifier) return false;
+        zoom(event.key() == Qt::Key_PageUp ? key_zoom : 1.0 / key_zoom);
+        return true;
+    }
+    int right = 0, up = 0;
+    switch (event.key()) {
+        case Qt::Key_Left:
+            right = -1;
+            break;
+        case Qt::Key_Right:
+            right = 1;
+            break;
+        case Qt::Key_Up:
+            up = 1;
+            break;
+        case Qt::Key_Down:
+            up = -1;
+            break;
+        default:
+            return false;
+    }
+    parts_->flight.stop();
+    const double step = key_step * devicePixelRatioF();
+    // Turning follows the key; moving goes there, so what is seen comes the other way.
+    if (is_flat() || held == Qt::ShiftModifier)
+        camera_style()->pan_by(-right * step, -up * step);
+    else
+        camera_style()->turn_by(right * step, up * step);
+    if (parts_->tool) parts_->tool->refresh();
+    return true;
 }
 
 bool MeshView::event(QEvent* event) {

@@ -10,10 +10,12 @@
 #include "ui/document/mesh_document.h"
 #include "ui/document/view_bookmarks.h"
 #include "ui/scene/mesh_scene.h"
+#include "ui/scene/mouse_map.h"
 #include "ui/tools/canvas.h"
 
 namespace curvewright {
 
+class SceneInteractorStyle;
 class Tool;
 struct PictureOptions;
 
@@ -54,6 +56,11 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// Of views made from now on; tests want their pictures at once.
     static inline DrawingMode first_drawing_mode = DrawingMode::automatic;
 
+    /// Which button moves the camera how.
+    void set_mouse_map(const MouseMap& map);
+    /// Closer to the middle of the view (factor > 1).
+    void zoom(double factor);
+
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
@@ -79,7 +86,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void lend_view(MeshScene& scene) const;
 
     bool is_flat() const override;
-    QSize view_size() const override { return size(); }
+    QRectF free_area() const override;
     QPointF to_display(const Eigen::RowVector3d& point) const override;
     Eigen::RowVector3d to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const override;
     double units_per_pixel(const Eigen::RowVector3d& at) const override;
@@ -140,6 +147,9 @@ class MeshView : public QOpenGLWidget, public Canvas {
     std::array<double, 2> to_device(QPointF position) const;
     QPointF from_device(double x, double y) const;
     void hover(QPointF position, Qt::KeyboardModifiers modifiers);
+    /// What the arrow and page keys do to the camera; whether the key is one of them.
+    bool navigate(const QKeyEvent& event);
+    SceneInteractorStyle* camera_style() const;
 
     std::unique_ptr<Parts> parts_;
 };

@@ -2,6 +2,8 @@
 
 #include "ui/main_window/mesh_view_parts.h"
 
+#include <algorithm>
+
 namespace curvewright {
 
 std::array<double, 2> MeshView::to_device(QPointF position) const {
@@ -16,6 +18,11 @@ QPointF MeshView::from_device(double x, double y) const {
 
 bool MeshView::is_flat() const {
     return parts_->scene.is_flat();
+}
+
+QRectF MeshView::free_area() const {
+    const double covered = parts_->scene.legend_width() / devicePixelRatioF();
+    return {0.0, 0.0, std::max(0.0, width() - covered), double(height())};
 }
 
 QPointF MeshView::to_display(const Eigen::RowVector3d& point) const {

@@ -64,6 +64,10 @@ void EditPanel::make_numbers() {
     }
     angle_ = make_number("motion_angle", -3600.0, 3600.0, 5.0, 4, 0.0);
     angle_->setSuffix(QStringLiteral("°"));
+    angle_->setToolTip(tr("Counter-clockwise, seen from the tip of the axis"));
+    for (int d = 0; d < 3; ++d)
+        numbers_[d]->setToolTip(tr("Along %1: how far, in the unit of the mesh, or how many times as large")
+                                    .arg(QStringLiteral("xyz").mid(d, 1)));
     axis_ = make_choice("motion_axis", tr("The direction that the selection turns about."),
                         {{tr("x"), 0, tr("x")}, {tr("y"), 1, tr("y")}, {tr("z"), 2, tr("z")}});
     axis_->setCurrentIndex(2);
@@ -144,7 +148,7 @@ void EditPanel::make_fields() {
     soft_->setObjectName(QStringLiteral("soft"));
     soft_->setToolTip(
         tr("Boundary nodes within the radius follow, the less the farther away they are "
-           "(proportional editing). O turns it on and off."));
+           "(proportional editing)."));
     radius_ = make_length("soft_radius");
     radius_->setToolTip(tr("How far the drag reaches, in the unit of the mesh. While dragging, the wheel changes it."));
     falloff_ = make_choice("falloff", tr("How the share falls from the node in hand to the radius."),
@@ -171,6 +175,8 @@ void EditPanel::make_fields() {
                          {tr("Sphere"), int(SnapTarget::sphere), tr("on a sphere.")},
                          {tr("NACA profile"), int(SnapTarget::naca), tr("on a symmetric four-digit profile.")}});
     spacing_ = make_length("grid_spacing");
+    spacing_->setToolTip(
+        tr("From one grid point to the next, in the unit of the mesh; also the step of a nudge by keys"));
     center_row_ = new QWidget;
     auto* row = new QHBoxLayout(center_row_);
     row->setContentsMargins(0, 0, 0, 0);
@@ -183,6 +189,8 @@ void EditPanel::make_fields() {
         row->addWidget(center_[d], 1);
     }
     size_ = make_length("snap_radius");
+    size_->setToolTip(tr("In the unit of the mesh"));
+    for (int d = 0; d < 3; ++d) center_[d]->setToolTip(tr("Its place along %1").arg(QStringLiteral("xyz").mid(d, 1)));
     thickness_ = make_number("snap_thickness", 0.01, 0.6, 0.01, 3, 0.12);
     thickness_->setToolTip(tr("Thickness of the profile as a fraction of its chord: 0.12 is NACA 0012"));
     center_label_ = make_label(tr("Centre"), "");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <QHelpEvent>
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QPainter>
 #include <QToolTip>
@@ -63,6 +64,8 @@ HistogramBars make_bars(const QualityReport& report) {
 HistogramWidget::HistogramWidget(const Theme& theme, QWidget* parent) : QWidget(parent), theme_(theme) {
     bars_.bars.resize(HistogramBars::bins);
     setMouseTracking(true);
+    setFocusPolicy(Qt::StrongFocus);
+    setAccessibleName(tr("Histogram of the scaled Jacobian"));
     setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Expanding);
     connect(&theme, &Theme::changed, this, qOverload<>(&QWidget::update));
 }
@@ -148,7 +151,8 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
             painter.fillRect(part, to_qcolor(undecided_color()));
         }
         // A thin outline keeps the light end of the map visible on a light ground.
-        painter.setPen(index == hovered_ ? theme_.color(QStringLiteral("text")) : QColor(128, 136, 146, 150));
+        const bool is_marked = index == hovered_ || (hasFocus() && index == current_);
+        painter.setPen(is_marked ? theme_.color(QStringLiteral("text")) : QColor(128, 136, 146, 150));
         painter.setBrush(Qt::NoBrush);
         painter.drawRect(box.adjusted(0, 0, -0.5, 0));
     }
@@ -165,6 +169,11 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
         painter.drawText(box, value == 1.0 ? Qt::AlignRight | Qt::AlignVCenter : Qt::AlignCenter,
                          QString::number(value, 'g', 3));
     }
+    if (hasFocus()) {
+        painter.setPen(theme_.color(QStringLiteral("accent")));
+        painter.setBrush(Qt::NoBrush);
+        painter.drawRoundedRect(QRectF(rect()).adjusted(0.5, 0.5, -0.5, -0.5), 4, 4);
+    }
     if (!report_) {
         painter.setPen(theme_.color(QStringLiteral("text_disabled")));
         painter.drawText(area, Qt::AlignCenter, tr("no quality to show"));
@@ -179,9 +188,76 @@ void HistogramWidget::paintEvent(QPaintEvent*) {
     }
 }
 
+QString HistogramWidget::describe(int index) const {
+    const QString count =
+        bar(index).count() == 1 ? tr("1 element") : tr("%1 elements").arg(format_count(bar(index).count()));
+    const QString range = index < 0 ? tr("tangled (scaled Jacobian ≤ 0)")
+                                    : tr("scaled Jacobian %1 to %2")
+                                          .arg(double(index) / HistogramBars::bins, 0, 'f', 2)
+                                          .arg(double(index + 1) / HistogramBars::bins, 0, 'f', 2);
+    return count + QStringLiteral(", ") + range;
+}
+
+int HistogramWidget::next_bar(int index, int step) const {
+    for (int next = index + step; next >= -1 && next < HistogramBars::bins; next += step)
+        if (bar(next).count() > 0) return next;
+    return index;
+}
+
+void HistogramWidget::go_to(int index) {
+    current_ = index;
+    update();
+    if (index == -2) return;
+    const QRectF area = bar_area(index);
+    QToolTip::showText(mapToGlobal(QPointF(area.center().x(), area.bottom()).toPoint()), describe(index), this);
+}
+
+void HistogramWidget::keyPressEvent(QKeyEvent* event) {
+    switch (event->key()) {
+        case Qt::Key_Left:
+            go_to(next_bar(current_, -1));
+            break;
+        case Qt::Key_Right:
+            go_to(next_bar(current_, 1));
+            break;
+        case Qt::Key_Home:
+            go_to(next_bar(-2, 1));
+            break;
+        case Qt::Key_End:
+            go_to(next_bar(HistogramBars::bins, -1));
+            break;
+        case Qt::Key_Return:
+        case Qt::Key_Enter:
+        case Qt::Key_Space:
+            if (current_ != -2) choose(current_);
+            break;
+        default:
+            QWidget::keyPressEvent(event);
+    }
+}
+
+void HistogramWidget::focusInEvent(QFocusEvent* event) {
+    // The worst first, unless the keyboard was here before; a click says itself where it is.
+    if (current_ == -2 || bar(current_).count() == 0) current_ = next_bar(-2, 1);
+    if (event->reason() == Qt::MouseFocusReason)
+        update();
+    else
+        go_to(current_);
+}
+
+void HistogramWidget::focusOutEvent(QFocusEvent*) {
+    QToolTip::hideText();
+    update();
+}
+
 void HistogramWidget::mousePressEvent(QMouseEvent* event) {
     const int index = bar_at(event->position());
     if (event->button() != Qt::LeftButton || index == -2) return;
+    current_ = index;
+    choose(index);
+}
+
+void HistogramWidget::choose(int index) {
     std::vector<Index> elements = bar(index).decided;
     elements.insert(elements.end(), bar(index).undecided.begin(), bar(index).undecided.end());
     emit bar_clicked(elements);
@@ -196,13 +272,7 @@ void HistogramWidget::mouseMoveEvent(QMouseEvent* event) {
         QToolTip::hideText();
         return;
     }
-    const QString count =
-        bar(index).count() == 1 ? tr("1 element") : tr("%1 elements").arg(format_count(bar(index).count()));
-    const QString range = index < 0 ? tr("tangled (scaled Jacobian ≤ 0)")
-                                    : tr("scaled Jacobian %1 to %2")
-                                          .arg(double(index) / HistogramBars::bins, 0, 'f', 2)
-                                          .arg(double(index + 1) / HistogramBars::bins, 0, 'f', 2);
-    QToolTip::showText(event->globalPosition().toPoint(), count + QStringLiteral(", ") + range, this);
+    QToolTip::showText(event->globalPosition().toPoint(), describe(index), this);
 }
 
 void HistogramWidget::leaveEvent(QEvent*) {

@@ -55,6 +55,9 @@ class HistogramWidget : public QWidget {
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
     void leaveEvent(QEvent* event) override;
+    void keyPressEvent(QKeyEvent* event) override;
+    void focusInEvent(QFocusEvent* event) override;
+    void focusOutEvent(QFocusEvent* event) override;
 
   private:
     QRectF plot() const;
@@ -64,6 +67,12 @@ class HistogramWidget : public QWidget {
         return index < 0 ? bars_.tangled : bars_.bars[static_cast<std::size_t>(index)];
     }
     double height_of(Index count) const;  ///< fraction of the plot
+    /// How many elements, in which range.
+    QString describe(int bar) const;
+    void choose(int bar);
+    /// The next bar with elements in it to the right (1) or to the left (-1); the same one if there is none.
+    int next_bar(int bar, int step) const;
+    void go_to(int bar);
 
     const Theme& theme_;
     std::shared_ptr<const QualityReport> report_;
@@ -72,6 +81,7 @@ class HistogramWidget : public QWidget {
     Index limit_ = 1;
     bool is_logarithmic_ = true;
     int hovered_ = -2;
+    int current_ = -2;  ///< where the keyboard is
 };
 
 }  // namespace curvewright

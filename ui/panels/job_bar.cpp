@@ -5,6 +5,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 
+#include "ui/document/core_words.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -49,7 +50,7 @@ JobBar::JobBar(JobRunner& runner, QWidget* parent) : QWidget(parent) {
         delay_.start();
     });
     connect(&runner, &JobRunner::progress, this, [this, &runner](const QString& phase, double fraction) {
-        text_->setText(phase.isEmpty() ? runner.title() : runner.title() + QStringLiteral(": ") + phase);
+        text_->setText(phase.isEmpty() ? runner.title() : runner.title() + QStringLiteral(": ") + phase_text(phase));
         progress_->setRange(0, 1000);
         progress_->setValue(qRound(qBound(0.0, fraction, 1.0) * 1000));
     });

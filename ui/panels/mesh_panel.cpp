@@ -34,6 +34,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     groups_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     groups_->setRootIsDecorated(false);
     groups_->setUniformRowHeights(true);
+    groups_->setAllColumnsShowFocus(true);
     groups_->header()->setStretchLastSection(false);
     groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     groups_->header()->setSectionResizeMode(1, QHeaderView::ResizeToContents);
@@ -64,13 +65,16 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     connect(&document, &MeshDocument::opened, this, &MeshPanel::show_groups);
     connect(&document, &MeshDocument::state_changed, this, &MeshPanel::show_state);
     connect(&document, &MeshDocument::file_path_changed, this, &MeshPanel::show_file);
-    connect(groups_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item) {
+    const auto choose = [this](QTreeWidgetItem* item) {
+        if (!item) return;
         const GroupLine& line = group_lines_[groups_->indexOfTopLevelItem(item)];
         if (line.dimension == document_.state().mesh->topology().dimension())
             emit elements_chosen(line.elements);
         else
             emit nodes_chosen(line.nodes);
-    });
+    };
+    connect(groups_, &QTreeWidget::itemClicked, this, choose);
+    connect(groups_, &QTreeWidget::itemActivated, this, choose);
     show_file();
     show_state();
 }

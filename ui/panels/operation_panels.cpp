@@ -161,6 +161,7 @@ void WarpPanel::make_fields() {
     step_count_->setObjectName(QStringLiteral("step_count"));
     step_count_->setRange(1, 1000);
     step_count_->setValue(4);
+    step_count_->setToolTip(tr("More steps go farther before elements tangle, and take longer"));
     new_weights_ = new QCheckBox(tr("New weights at every step"));
     new_weights_->setObjectName(QStringLiteral("new_weights"));
     new_weights_->setChecked(true);

@@ -13,6 +13,7 @@
 #include <QVBoxLayout>
 
 #include "core/base/error.h"
+#include "ui/document/core_words.h"
 #include "ui/document/number_format.h"
 #include "ui/panels/form_fields.h"
 #include "ui/panels/jacobian_map.h"
@@ -99,6 +100,8 @@ void SelectionPanel::make_selecting() {
     upper_ = make_number("range_upper", -1e3, 1.0, 0.05, 2, 0.3);
     lower_->setButtonSymbols(QAbstractSpinBox::NoButtons);
     upper_->setButtonSymbols(QAbstractSpinBox::NoButtons);
+    lower_->setToolTip(tr("The lowest scaled Jacobian to take; negative: tangled elements too"));
+    upper_->setToolTip(tr("The highest scaled Jacobian to take"));
     lower_->setMinimumWidth(48);
     upper_->setMinimumWidth(48);
     auto* select_range = new QPushButton(tr("Take"));
@@ -122,10 +125,10 @@ void SelectionPanel::make_selecting() {
 
     count_ = make_label(QString(), "title");
     count_->setObjectName(QStringLiteral("selection_count"));
-    grow_ = make_button(tr("Grow"), tr("One layer more (+)"), "selection_grow");
-    shrink_ = make_button(tr("Shrink"), tr("One layer less (−)"), "selection_shrink");
-    invert_ = make_button(tr("Invert"), tr("What is not selected (Ctrl+I)"), "selection_invert");
-    clear_ = make_button(tr("Clear"), tr("Nothing (Ctrl+Shift+A)"), "selection_clear");
+    grow_ = make_button(tr("Grow"), tr("One layer more: neighbours of what is selected"), "selection_grow");
+    shrink_ = make_button(tr("Shrink"), tr("One layer less: the rim of what is selected goes"), "selection_shrink");
+    invert_ = make_button(tr("Invert"), tr("What is not selected instead of what is"), "selection_invert");
+    clear_ = make_button(tr("Clear"), tr("Select nothing"), "selection_clear");
     auto* buttons = new QHBoxLayout;
     buttons->setSpacing(4);
     for (QToolButton* button : {grow_, shrink_, invert_, clear_}) buttons->addWidget(button);
@@ -257,7 +260,7 @@ void SelectionPanel::show_element(Index element) {
     const MeshState& state = edit_.document().state();
     const MeshTopology& topology = state.mesh->topology();
     add_detail(tr("Element"), QString::number(topology.element_tag(element).value));
-    add_detail(tr("Type"), QString::fromStdString(name(topology.element_type(element))));
+    add_detail(tr("Type"), type_name(topology.element_type(element)));
     const auto center = state.mesh->element_center(element);
     add_detail(
         tr("Centre"),

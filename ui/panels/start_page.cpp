@@ -69,7 +69,7 @@ class SampleCard : public QFrame {
         if (event->button() == Qt::LeftButton && rect().contains(event->position().toPoint())) choose_();
     }
     void keyPressEvent(QKeyEvent* event) override {
-        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Space)
+        if (event->key() == Qt::Key_Return || event->key() == Qt::Key_Enter || event->key() == Qt::Key_Space)
             choose_();
         else
             QFrame::keyPressEvent(event);
@@ -136,6 +136,7 @@ StartPage::StartPage(const SampleCatalog& samples, RecentFiles& recent, const Th
     auto* scroll = new QScrollArea;
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);
+    scroll->setFocusPolicy(Qt::NoFocus);  // Tab goes to what is in it
     scroll->setWidget(center);
     scroll->viewport()->setAutoFillBackground(false);
     center->setAutoFillBackground(false);

@@ -3,6 +3,7 @@
 #include <QApplication>
 #include <QFile>
 #include <QFont>
+#include <QIconEngine>
 #include <QJsonDocument>
 #include <QJsonObject>
 #include <QPainter>
@@ -23,6 +24,29 @@ QByteArray read_resource(const QString& name) {
     if (!file.open(QIODevice::ReadOnly)) qFatal("Resource %s is missing.", qPrintable(name));
     return file.readAll();
 }
+
+/// Draws an SVG at whatever size is asked for, so that lines are crisp on every screen.
+class LineIconEngine : public QIconEngine {
+  public:
+    LineIconEngine(QByteArray normal, QByteArray disabled)
+        : normal_(std::move(normal)), disabled_(std::move(disabled)) {}
+
+    void paint(QPainter* painter, const QRect& rect, QIcon::Mode mode, QIcon::State) override {
+        QSvgRenderer(mode == QIcon::Disabled ? disabled_ : normal_).render(painter, rect);
+    }
+    QPixmap pixmap(const QSize& size, QIcon::Mode mode, QIcon::State state) override {
+        QPixmap pixmap(size);
+        pixmap.fill(Qt::transparent);
+        QPainter painter(&pixmap);
+        paint(&painter, QRect(QPoint(0, 0), size), mode, state);
+        return pixmap;
+    }
+    QSize actualSize(const QSize& size, QIcon::Mode, QIcon::State) override { return size; }
+    QIconEngine* clone() const override { return new LineIconEngine(*this); }
+
+  private:
+    QByteArray normal_, disabled_;
+};
 
 }  // namespace
 
@@ -85,25 +109,9 @@ QByteArray Theme::recolored(const QString& icon_name, const QColor& line, const 
 
 QIcon Theme::icon(const QString& name) const {
     if (name.isEmpty()) return {};
-    QIcon icon;
     const QColor disabled = color(QStringLiteral("text_disabled"));
-    const struct {
-        QIcon::Mode mode;
-        QByteArray svg;
-    } variants[] = {{QIcon::Normal, recolored(name, color(QStringLiteral("text")), color(QStringLiteral("accent")))},
-                    {QIcon::Disabled, recolored(name, disabled, disabled)}};
-    for (const auto& variant : variants) {
-        QSvgRenderer renderer(variant.svg);
-        for (const int size : {16, 20, 24, 32, 40, 48, 64}) {
-            QPixmap pixmap(size, size);
-            pixmap.fill(Qt::transparent);
-            QPainter painter(&pixmap);
-            renderer.render(&painter);
-            painter.end();
-            icon.addPixmap(pixmap, variant.mode);
-        }
-    }
-    return icon;
+    return QIcon(new LineIconEngine(recolored(name, color(QStringLiteral("text")), color(QStringLiteral("accent"))),
+                                    recolored(name, disabled, disabled)));
 }
 
 QIcon Theme::program_icon() {

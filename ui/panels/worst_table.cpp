@@ -14,9 +14,10 @@ namespace curvewright {
 namespace {
 
 /// A swatch in the element's colour; a cross or a question mark says in shape what the colour says.
-QIcon swatch(const ElementQuality& quality, const ColorScale& scale, const QColor& outline) {
+QIcon swatch(const ElementQuality& quality, const ColorScale& scale, const QColor& outline, qreal ratio) {
     const Color color = quality_color(quality.scaled_jacobian, quality.validity, scale);
-    QPixmap pixmap(16, 16);
+    QPixmap pixmap(QSize(16, 16) * ratio);
+    pixmap.setDevicePixelRatio(ratio);
     pixmap.fill(Qt::transparent);
     QPainter painter(&pixmap);
     painter.setPen(outline);
@@ -57,6 +58,7 @@ WorstTable::WorstTable(MeshDocument& document, const Theme& theme, QWidget* pare
     table_->headerItem()->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
     table_->setRootIsDecorated(false);
     table_->setUniformRowHeights(true);
+    table_->setAllColumnsShowFocus(true);
     table_->header()->setStretchLastSection(true);
     table_->header()->setSectionResizeMode(QHeaderView::ResizeToContents);
     table_->setToolTip(tr("Click a row to look at the element"));
@@ -92,7 +94,7 @@ void WorstTable::refresh() {
     for (const Index element : elements_) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(element)];
         auto* item = new QTreeWidgetItem(table_);
-        item->setIcon(0, swatch(quality, scale_, theme_.color(QStringLiteral("border_strong"))));
+        item->setIcon(0, swatch(quality, scale_, theme_.color(QStringLiteral("border_strong")), devicePixelRatioF()));
         item->setText(0, QString::number(state.mesh->topology().element_tag(element).value));
         item->setText(1, format_number(quality.scaled_jacobian));
         item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);

@@ -1,5 +1,7 @@
 #include "ui/scene/interactor_style.h"
 
+#include <cmath>
+
 #include <vtkCommand.h>
 #include <vtkObjectFactory.h>
 #include <vtkRenderWindowInteractor.h>
@@ -8,6 +10,7 @@ namespace curvewright {
 namespace {
 
 constexpr double wheel_step = 1.15;  ///< factor per notch
+constexpr double drag_zoom = 1.008;  ///< factor per pixel of a drag that zooms
 
 }  // namespace
 
@@ -19,23 +22,26 @@ void SceneInteractorStyle::connect(CameraControl* camera,
     depth_at_ = std::move(depth_at);
 }
 
-void SceneInteractorStyle::begin(Drag drag) {
-    if (!camera_ || drag_ != Drag::none) return;
-    drag_ = drag;
+void SceneInteractorStyle::begin(const ButtonMotions& motions) {
+    if (!camera_ || drag_) return;
+    drag_ = Interactor->GetShiftKey()     ? motions.with_shift
+            : Interactor->GetControlKey() ? motions.with_control
+                                          : motions.alone;
+    if (*drag_ == CameraMotion::turn && camera_->is_flat()) drag_ = CameraMotion::pan;
+    const int* at = Interactor->GetEventPosition();
+    pressed_at_ = {at[0], at[1]};
     InvokeEvent(vtkCommand::StartInteractionEvent);
 }
 
 void SceneInteractorStyle::end() {
-    if (drag_ == Drag::none) return;
-    drag_ = Drag::none;
+    if (!drag_) return;
+    drag_.reset();
     InvokeEvent(vtkCommand::EndInteractionEvent);
     redraw();
 }
 
 void SceneInteractorStyle::OnLeftButtonDown() {
-    if (!camera_) return;
-    const bool pans = camera_->is_flat() || Interactor->GetShiftKey();
-    begin(pans ? Drag::pan : Drag::rotate);
+    begin(map_.left);
 }
 
 void SceneInteractorStyle::OnLeftButtonUp() {
@@ -43,7 +49,7 @@ void SceneInteractorStyle::OnLeftButtonUp() {
 }
 
 void SceneInteractorStyle::OnRightButtonDown() {
-    OnLeftButtonDown();
+    begin(map_.right);
 }
 
 void SceneInteractorStyle::OnRightButtonUp() {
@@ -51,7 +57,7 @@ void SceneInteractorStyle::OnRightButtonUp() {
 }
 
 void SceneInteractorStyle::OnMiddleButtonDown() {
-    begin(Drag::pan);
+    begin(map_.middle);
 }
 
 void SceneInteractorStyle::OnMiddleButtonUp() {
@@ -59,27 +65,57 @@ void SceneInteractorStyle::OnMiddleButtonUp() {
 }
 
 void SceneInteractorStyle::OnMouseMove() {
-    if (!camera_ || drag_ == Drag::none) return;
+    if (!camera_ || !drag_) return;
     const int* to = Interactor->GetEventPosition();
     const int* from = Interactor->GetLastEventPosition();
-    if (drag_ == Drag::pan)
-        camera_->pan(from[0], from[1], to[0], to[1]);
+    switch (*drag_) {
+        case CameraMotion::pan:
+            camera_->pan(from[0], from[1], to[0], to[1]);
+            break;
+        case CameraMotion::turn:
+            camera_->rotate(to[0] - from[0], to[1] - from[1]);
+            break;
+        case CameraMotion::zoom:
+            zoom(std::pow(drag_zoom, to[1] - from[1]), pressed_at_);
+            return;
+    }
+    redraw();
+}
+
+void SceneInteractorStyle::turn_by(double right, double up) {
+    if (!camera_) return;
+    if (camera_->is_flat())
+        camera_->pan(0.0, 0.0, right, up);
     else
-        camera_->rotate(to[0] - from[0], to[1] - from[1]);
+        camera_->rotate(right, up);
+    redraw();
+}
+
+void SceneInteractorStyle::pan_by(double right, double up) {
+    if (!camera_) return;
+    camera_->pan(0.0, 0.0, right, up);
+    redraw();
+}
+
+void SceneInteractorStyle::zoom_by(double factor) {
+    if (!camera_) return;
+    const int* size = Interactor->GetSize();
+    camera_->zoom(factor, 0.5 * size[0], 0.5 * size[1], std::nullopt);
     redraw();
 }
 
 void SceneInteractorStyle::OnMouseWheelForward() {
-    zoom(wheel_step);
+    const int* at = Interactor->GetEventPosition();
+    zoom(map_.wheel_is_reversed ? 1.0 / wheel_step : wheel_step, {at[0], at[1]});
 }
 
 void SceneInteractorStyle::OnMouseWheelBackward() {
-    zoom(1.0 / wheel_step);
+    const int* at = Interactor->GetEventPosition();
+    zoom(map_.wheel_is_reversed ? wheel_step : 1.0 / wheel_step, {at[0], at[1]});
 }
 
-void SceneInteractorStyle::zoom(double factor) {
+void SceneInteractorStyle::zoom(double factor, std::array<int, 2> at) {
     if (!camera_) return;
-    const int* at = Interactor->GetEventPosition();
     camera_->zoom(factor, at[0], at[1], depth_at_ ? depth_at_(at[0], at[1]) : std::nullopt);
     redraw();
 }

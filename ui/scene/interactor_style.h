@@ -1,15 +1,18 @@
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 
 #include <vtkInteractorStyle.h>
 
 #include "ui/scene/camera_control.h"
+#include "ui/scene/mouse_map.h"
 
 namespace curvewright {
 
-/// How the mouse moves the camera. 2D: any drag pans, the wheel zooms to the pointer. 3D: left or right drag turns,
-/// middle or shift + left drag pans, the wheel zooms to the pointer. No keys.
+/// How the mouse moves the camera: drags as the MouseMap says, the wheel zooms to the pointer. Keys do so through the
+/// functions for them.
 class SceneInteractorStyle : public vtkInteractorStyle {
   public:
     static SceneInteractorStyle* New();
@@ -17,6 +20,14 @@ class SceneInteractorStyle : public vtkInteractorStyle {
     /// depth_at: depth of what is drawn at a display position, if there is anything. camera null: does nothing any
     /// more.
     void connect(CameraControl* camera, std::function<std::optional<double>(double x, double y)> depth_at);
+
+    void set_mouse_map(const MouseMap& map) { map_ = map; }
+
+    /// As a drag by so many device pixels would: to the right and up.
+    void turn_by(double right, double up);
+    void pan_by(double right, double up);
+    /// factor > 1: closer to the middle of the view.
+    void zoom_by(double factor);
 
     void OnLeftButtonDown() override;
     void OnLeftButtonUp() override;
@@ -32,15 +43,16 @@ class SceneInteractorStyle : public vtkInteractorStyle {
     void OnKeyRelease() override {}
 
   private:
-    enum class Drag { none, pan, rotate };
-    void begin(Drag drag);
+    void begin(const ButtonMotions& motions);
     void end();
-    void zoom(double factor);
+    void zoom(double factor, std::array<int, 2> at);
     void redraw();
 
     CameraControl* camera_ = nullptr;
     std::function<std::optional<double>(double, double)> depth_at_;
-    Drag drag_ = Drag::none;
+    MouseMap map_;
+    std::optional<CameraMotion> drag_;
+    std::array<int, 2> pressed_at_{};  ///< device pixels: what a zooming drag comes closer to
 
     vtkTypeMacro(SceneInteractorStyle, vtkInteractorStyle)
 };

@@ -523,6 +523,10 @@ const ColorScale& MeshScene::shown_scale() const {
     return parts_->painter.scale();
 }
 
+double MeshScene::legend_width() const {
+    return parts_->mesh ? parts_->legend.width(parts_->options.pixel_ratio) : 0.0;
+}
+
 bool MeshScene::is_on_legend(double x, double y) const {
     return parts_->mesh && parts_->legend.contains(x, y);
 }

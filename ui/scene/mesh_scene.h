@@ -79,6 +79,8 @@ class MeshScene {
     const Coloring& coloring() const;
     /// The map with the range that is shown now.
     const ColorScale& shown_scale() const;
+    /// Of the strip at the right that the legend covers, device pixels.
+    double legend_width() const;
     /// Whether a display position (device pixels, origin bottom left) is on the legend.
     bool is_on_legend(double x, double y) const;
 

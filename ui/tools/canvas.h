@@ -6,7 +6,7 @@
 
 #include <QCursor>
 #include <QPointF>
-#include <QSize>
+#include <QRectF>
 #include <QString>
 
 #include "core/mesh/curved_mesh.h"
@@ -21,8 +21,8 @@ class Canvas {
     virtual ~Canvas() = default;
 
     virtual bool is_flat() const = 0;
-    /// Of the view, in its own pixels.
-    virtual QSize view_size() const = 0;
+    /// The part of the view that nothing covers, in its own pixels.
+    virtual QRectF free_area() const = 0;
     virtual QPointF to_display(const Eigen::RowVector3d& point) const = 0;
     /// The point under a display position at the depth of another point (2D: in the mesh's plane).
     virtual Eigen::RowVector3d to_mesh(QPointF position, const Eigen::RowVector3d& at_depth_of) const = 0;

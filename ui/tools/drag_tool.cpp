@@ -257,8 +257,7 @@ QString DragTool::hint() const {
     return context_.canvas.is_flat()
                ? tr("Drag a boundary node, and the mesh follows. Elsewhere: move the view · "
                     "wheel: zoom · click: what is this element?")
-               : tr("Drag a boundary node, and the mesh follows. Elsewhere, or right button: turn "
-                    "· middle: move · wheel: zoom");
+               : tr("Drag a boundary node, and the mesh follows. Elsewhere: turn · Shift: move · wheel: zoom");
 }
 
 }  // namespace curvewright

@@ -10,10 +10,8 @@ void LookTool::refresh() {
 }
 
 QString LookTool::hint() const {
-    return context_.canvas.is_flat()
-               ? tr("drag: move · wheel: zoom to the pointer · click: what is this element? · D: drag the boundary")
-               : tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element? · D: drag the "
-                    "boundary");
+    return context_.canvas.is_flat() ? tr("drag: move · wheel: zoom to the pointer · click: what is this element?")
+                                     : tr("drag: turn · shift+drag: move · wheel: zoom · click: what is this element?");
 }
 
 }  // namespace curvewright

@@ -138,8 +138,7 @@ void SelectTool::refresh() {
 QString SelectTool::hint() const {
     const SelectSettings& settings = context_.edit.settings().select;
     return tr("click: select %1, again: its side, its boundary · drag: %2 · Shift: add · Ctrl: add or take away · "
-              "right "
-              "button: move the view · Esc: nothing")
+              "other buttons: the view · Esc: nothing")
         .arg(settings.what == SelectWhat::elements ? tr("an element") : tr("a node"),
              settings.is_lasso ? tr("lasso") : tr("box"));
 }

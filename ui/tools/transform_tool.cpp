@@ -97,9 +97,9 @@ Eigen::RowVector3d TransformTool::middle_of_selection(const Coordinates& positio
 Eigen::RowVector3d TransformTool::place_of_handles(const Coordinates& positions) const {
     const Eigen::RowVector3d middle = middle_of_selection(positions);
     const QPointF shown = context_.canvas.to_display(middle);
-    const QSize room = context_.canvas.view_size();
-    // A view smaller than that shows what it can of them.
-    const double margin = std::min({box_distance + 12.0, 0.5 * room.width(), 0.5 * room.height()});
+    const QRectF room = context_.canvas.free_area();
+    // The ring whole; the arrows that point outwards reach beyond it. A smaller view shows what it can.
+    const double margin = std::min({ring_radius + 8.0, 0.5 * room.width(), 0.5 * room.height()});
     const QPointF inside(std::clamp(shown.x(), margin, room.width() - margin),
                          std::clamp(shown.y(), margin, room.height() - margin));
     return inside == shown ? middle : context_.canvas.to_mesh(inside, middle);
