@@ -95,6 +95,25 @@ def annulus():
     finish("annulus", 3, [snap("outer", "circle", [0, 0, 0], 1.0), snap("inner", "circle", [0, 0, 0], inner)])
 
 
+def size_from_sides(polygons, growth):
+    """Element size: length of the nearest side times its polygon's factor, growing with the distance from it."""
+    sides = []  # start, end, length, factor
+    for corners, factor in polygons:
+        for a, b in zip(corners, corners[1:] + corners[:1]):
+            sides.append((a, b, math.dist(a, b), factor))
+
+    def size(x, y):
+        best = 1e22
+        for (ax, ay), (bx, by), length, factor in sides:
+            t = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length ** 2
+            t = min(1.0, max(0.0, t))
+            there = math.hypot(x - ax - t * (bx - ax), y - ay - t * (by - ay))
+            best = min(best, factor * length + growth * there)
+        return best
+
+    return size
+
+
 def moving_circle():
     """About 1,700 quadratic triangles between a rectangle and a circle that moves by its radius."""
     begin("moving_circle", 6)
@@ -103,23 +122,29 @@ def moving_circle():
     half += [(width / 2, -height / 2 + height * k / up) for k in range(up)]
     rectangle = half + [(-x, -y) for x, y in half]
     circle = ring(radius, 20)
-    sides = []  # of both polygons: start, end, length
-    for corners in (rectangle, circle):
-        for a, b in zip(corners, corners[1:] + corners[:1]):
-            sides.append((a, b, math.dist(a, b)))
-
-    def size(x, y):
-        """Length of the nearest side, growing slowly with the distance from it."""
-        best = 1e22
-        for (ax, ay), (bx, by), length in sides:
-            t = ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / length ** 2
-            t = min(1.0, max(0.0, t))
-            best = min(best, length + 0.033 * math.hypot(x - ax - t * (bx - ax), y - ay - t * (by - ay)))
-        return best
-
+    size = size_from_sides([(rectangle, 1.0), (circle, 1.0)], 0.033)
     polygon_domain([("rectangle", rectangle, 0.04), ("circle", circle, 0.04)], size=size)
     finish("moving_circle", 2, [snap("circle", "circle", [0, 0, 0], radius),
                                 {"group": "circle", "type": "translate", "vector": [radius, 0, 0]}])
+
+
+def moving_circles1():
+    """About 1,500 cubic triangles between a square and four circles, each of which moves towards the middle."""
+    begin("moving_circles1", 6)
+    radius, place, half, across = 0.13, 0.22, 0.5, 14
+    sides = [(-half + 2 * half * k / across, -half) for k in range(across)]
+    sides += [(half, -half + 2 * half * k / across) for k in range(across)]
+    square = sides + [(-x, -y) for x, y in sides]
+    circles, operations = [], []
+    for k, (sx, sy) in enumerate(((1, 1), (-1, 1), (-1, -1), (1, -1))):
+        group = "circle%d" % (k + 1)
+        circles.append((group, [(sx * place + x, sy * place + y) for x, y in ring(radius, 16)], 0.04))
+        shift = 0.375 * radius
+        operations += [snap(group, "circle", [sx * place, sy * place, 0], radius),
+                       {"group": group, "type": "translate", "vector": [-shift * sx, -shift * sy, 0]}]
+    size = size_from_sides([(square, 1.0)] + [(corners, 0.58) for _, corners, _ in circles], 0.05)
+    polygon_domain([("square", square, 0.04)] + circles, size=size)
+    finish("moving_circles1", 3, operations, compress=True)
 
 
 def sphere_in_cube(name, near, far, grow):
@@ -146,6 +171,7 @@ def sphere_in_cube(name, near, far, grow):
 SAMPLES = {
     "annulus": annulus,
     "moving_circle": moving_circle,
+    "moving_circles1": moving_circles1,
     "moving_sphere": lambda: sphere_in_cube("moving_sphere", 0.0755, 0.155, 0.1),
     "moving_sphere_small": lambda: sphere_in_cube("moving_sphere_small", 0.147, 0.315, 0.2),
 }

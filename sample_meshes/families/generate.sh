@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Makes the meshes of the two scaling families with Gmsh (package gmsh): circle_0.msh ... circle_9.msh, sphere_0.msh ...
-# sphere_7.msh, straight-sided, order 1. What is there already stays. They are for benchmarks and too large to be kept.
+# Makes the meshes of the scaling families with Gmsh (package gmsh): circle_0.msh ... circle_9.msh, sphere_0.msh ...
+# sphere_7.msh, hole_0.msh, hole_1.msh, straight-sided, order 1. What is there already stays. They are for benchmarks and
+# too large to be kept.
 #     sample_meshes/families/generate.sh [FOLDER]      (default: build/families)
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
@@ -23,3 +24,4 @@ make() {
 
 make circle 2 0 1 2 3 4 5 6 7 8 9
 make sphere 3 0 1 2 3 4 5 6 7
+make hole 2 0 1

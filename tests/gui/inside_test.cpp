@@ -98,7 +98,6 @@ class InsideTest : public QObject {
         test.set_slider(60);  // 0.3
         // To where the section is in front.
         test.window->action(CommandId::look_top)->trigger();
-        if (test.view().view_axes()(2, 2) < 0.0) test.window->action(CommandId::look_bottom)->trigger();
         QTest::qWait(50);
         QSignalSpy clicks(&test.view(), &MeshView::element_clicked);
         int told = 0;

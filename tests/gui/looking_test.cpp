@@ -37,6 +37,21 @@ class LookingTest : public QObject {
   private slots:
     void init() { QSettings().clear(); }
 
+    void directions_are_what_they_are_called() {
+        LookingUnderTest test("cube.msh");
+        const struct {
+            CommandId command;
+            Eigen::Vector3d towards_the_eye;
+        } directions[] = {{CommandId::look_front, {0, -1, 0}}, {CommandId::look_back, {0, 1, 0}},
+                          {CommandId::look_left, {-1, 0, 0}},  {CommandId::look_right, {1, 0, 0}},
+                          {CommandId::look_top, {0, 0, 1}},    {CommandId::look_bottom, {0, 0, -1}}};
+        for (const auto& entry : directions) {
+            test.window->action(entry.command)->trigger();
+            QVERIFY2((test.view().view_axes().col(2) - entry.towards_the_eye).norm() < 1e-9,
+                     qPrintable(test.window->action(entry.command)->objectName()));
+        }
+    }
+
     void before_and_now_stand_side_by_side() {
         LookingUnderTest test;
         QVERIFY(!test.before_view().isVisible());

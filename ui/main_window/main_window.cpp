@@ -47,12 +47,12 @@ const struct {
     CommandId command;
     ViewDirection direction;
 } look_commands[] = {{CommandId::fit, ViewDirection::fit},
-                     {CommandId::look_front, ViewDirection::plus_y},
-                     {CommandId::look_back, ViewDirection::minus_y},
-                     {CommandId::look_left, ViewDirection::plus_x},
-                     {CommandId::look_right, ViewDirection::minus_x},
-                     {CommandId::look_top, ViewDirection::minus_z},
-                     {CommandId::look_bottom, ViewDirection::plus_z},
+                     {CommandId::look_front, ViewDirection::minus_y},
+                     {CommandId::look_back, ViewDirection::plus_y},
+                     {CommandId::look_left, ViewDirection::minus_x},
+                     {CommandId::look_right, ViewDirection::plus_x},
+                     {CommandId::look_top, ViewDirection::plus_z},
+                     {CommandId::look_bottom, ViewDirection::minus_z},
                      {CommandId::look_isometric, ViewDirection::isometric}};
 
 }  // namespace

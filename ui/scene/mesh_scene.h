@@ -50,6 +50,7 @@ struct SceneOptions {
     double pixel_ratio = 1.0;        ///< device pixels per unit: scales lines, points, text
 };
 
+/// The side that the camera is on: plus_z looks along -z, from above. `fit` keeps the direction.
 enum class ViewDirection { fit, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, isometric };
 
 /// Draws one mesh state into one renderer: surface coloured by scaled Jacobian or what set_coloring says, curved
