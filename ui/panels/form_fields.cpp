@@ -27,7 +27,9 @@ QFormLayout* make_form() {
 
 QDoubleSpinBox* make_number(const char* object_name, double lower, double upper, double step, int decimals,
                             double value) {
-    auto* box = new QDoubleSpinBox;
+    // A few decimals stand in line below each other; many are rarely needed and leave no room.
+    constexpr int most_shown = 3;
+    auto* box = decimals > most_shown ? new PlainSpinBox : new QDoubleSpinBox;
     box->setObjectName(QLatin1String(object_name));
     box->setLocale(QLocale::c());
     box->setDecimals(decimals);
@@ -74,6 +76,10 @@ void LogSpinBox::stepBy(int steps) {
         next = std::round(next / step + (steps > 0 ? 1 : -1)) * step;
     }
     setValue(next);
+}
+
+QString PlainSpinBox::textFromValue(double value) const {
+    return QString::number(value, 'g', 10);
 }
 
 QString LogSpinBox::textFromValue(double value) const {

@@ -36,6 +36,15 @@ Enum chosen(const QComboBox* box) {
 /// The labels of all rows in the width of the widest, so that the fields stay in place when rows are hidden.
 void align_labels(QFormLayout* form);
 
+/// A spin box without the zeros behind a number's last digit: 0, 0.25, 1e-07.
+class PlainSpinBox : public QDoubleSpinBox {
+    Q_OBJECT
+
+  public:
+    using QDoubleSpinBox::QDoubleSpinBox;
+    QString textFromValue(double value) const override;
+};
+
 /// A spin box whose steps change the leading digit: 0.002, 0.003, ... 0.009, 0.01, 0.02.
 class LogSpinBox : public QDoubleSpinBox {
     Q_OBJECT
