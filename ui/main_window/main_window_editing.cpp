@@ -53,6 +53,8 @@ QString MainWindow::tool_setting() const {
 void MainWindow::connect_editing() {
     connect(&drag_, &LiveDrag::active_changed, this, [this](bool is_active) {
         update_commands();
+        // What is told about a click before would hide what the hand does now.
+        if (is_active) statusBar()->clearMessage();
         if (!is_active) pointer_tag_->hide();
     });
     connect(&drag_, &LiveDrag::frame, this, &MainWindow::show_frame);
