@@ -111,6 +111,25 @@ class ColorsTest : public QObject {
   private slots:
     void init() { QSettings().clear(); }
 
+    void arrays_come_along_with_a_session() {
+        ColorsUnderTest test;
+        test.drag_bottom({0, -12});
+        test.file_answer = test.inputs.path(QStringLiteral("arrays.json"));
+        test.window->action(CommandId::save_session)->trigger();
+        WindowUnderTest other;
+        other.file_answer = test.file_answer;
+        other.window->action(CommandId::open_session)->trigger();
+        QVERIFY(other.wait_for_job());
+        QVERIFY(other.errors.isEmpty());
+        const auto &was = *test.document().fields(), &is = *other.window->document().fields();
+        QCOMPARE(is.size(), was.size());
+        for (std::size_t i = 0; i < is.size(); ++i) {
+            QCOMPARE(is[i].name, was[i].name);
+            QVERIFY(is[i].values == was[i].values);
+        }
+        other.window->document().mark_unchanged();
+    }
+
     void an_array_on_nodes_is_chosen_and_its_range_changed() {
         ColorsUnderTest test;
         test.show_bar();

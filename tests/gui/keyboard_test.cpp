@@ -8,6 +8,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QScrollArea>
+#include <QPushButton>
 #include <QSettings>
 #include <QSignalSpy>
 #include <QStatusBar>
@@ -120,6 +121,27 @@ class KeyboardTest : public QObject {
         test.settle();
         QVERIFY(std::abs(test.positions()(node, 0) - (0.5 - 80.0 * unit)) < 1e-9);
         test.window->action(CommandId::undo)->trigger();
+    }
+
+    void nothing_is_nudged_or_moved_while_a_job_works() {
+        KeyboardUnderTest test;
+        test.window->edit().select_nodes({test.node_at(0.5, 0.0)});
+        test.window->show_tab(QStringLiteral("edit"));
+        QVERIFY(test.find<QPushButton>("apply_motion")->isEnabled());
+        test.drag().set_allowed(false);  // what a running job does
+        QVERIFY(!test.find<QPushButton>("apply_motion")->isEnabled());
+        test.press(Qt::Key_Up, Qt::AltModifier);
+        QVERIFY(!test.drag().is_active());
+        QCOMPARE(test.document().history()->count(), 0);
+        test.drag().set_allowed(true);
+        test.press(Qt::Key_Up, Qt::AltModifier);
+        test.settle();
+        QCOMPARE(test.document().history()->count(), 1);
+        // A job does.
+        test.window->jobs().load_deformation(test.inputs.path(QStringLiteral("gentle.json")));
+        QVERIFY(test.drag().can_begin() != test.window->jobs().runner().is_running());
+        QVERIFY(test.wait_for_job());
+        QVERIFY(test.drag().can_begin());
     }
 
     void nudges_with_alt_held_are_one_step() {

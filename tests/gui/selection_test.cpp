@@ -259,6 +259,28 @@ class SelectionTest : public QObject {
         QVERIFY(!test.edit().spokes().node);
     }
 
+    void the_selection_stays_when_the_tool_changes() {
+        SelectionUnderTest test(CommandId::tool_select);
+        test.point_at(test.at(0.9, -0.1));
+        QTest::mousePress(&test.view(), Qt::LeftButton, {}, test.at(0.9, -0.1));
+        test.mouse = test.at(0.9, -0.1);
+        test.move_by(test.at(1.02, 1.1) - test.mouse);
+        QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, test.mouse);
+        const IndexSet selected = test.edit().nodes();
+        QVERIFY(selected.size() >= test.group("right").size());
+        for (const CommandId tool : {CommandId::tool_transform, CommandId::tool_drag, CommandId::tool_pin,
+                                     CommandId::tool_look, CommandId::tool_select}) {
+            test.window->action(tool)->trigger();
+            QCOMPARE(test.edit().nodes(), selected);
+        }
+        // A job takes the tool away for a while.
+        test.window->action(CommandId::untangle)->trigger();
+        QVERIFY(test.wait_for_job());
+        QCOMPARE(test.edit().nodes(), selected);
+        QTest::keyClick(&test.view(), Qt::Key_Escape);
+        QVERIFY(test.edit().nodes().empty());
+    }
+
     void arrows_move_the_selection() {
         SelectionUnderTest test(CommandId::tool_transform);
         test.edit().select_nodes(test.group("right"));

@@ -246,14 +246,14 @@ class ShortcutsTest : public QObject {
         QSettings settings;
         settings.setValue(QStringLiteral("shortcuts/preset"), QStringLiteral("emacs"));
         settings.setValue(QStringLiteral("shortcuts/own/undo"), QStringLiteral("Hyper+Q; ###"));
-        settings.setValue(QStringLiteral("shortcuts/own/redo"), QStringLiteral("Ctrl+9"));
-        settings.setValue(QStringLiteral("shortcuts/own/fit"), QStringLiteral("Ctrl+9"));
+        settings.setValue(QStringLiteral("shortcuts/own/redo"), QStringLiteral("Ctrl+Alt+9"));
+        settings.setValue(QStringLiteral("shortcuts/own/fit"), QStringLiteral("Ctrl+Alt+9"));
         settings.setValue(QStringLiteral("shortcuts/own/nodes"), QStringLiteral("Up"));
         settings.setValue(QStringLiteral("shortcuts/own/nothing"), QStringLiteral("Ctrl+8"));
         const Shortcuts shortcuts;
         QCOMPARE(QLatin1String(shortcuts.preset().name), QLatin1String("curvewright"));
         QCOMPARE(shortcuts.keys(CommandId::undo), parse_keys(QStringLiteral("Ctrl+Z")));
-        QCOMPARE(shortcuts.keys(CommandId::redo), parse_keys(QStringLiteral("Ctrl+9")));
+        QCOMPARE(shortcuts.keys(CommandId::redo), parse_keys(QStringLiteral("Ctrl+Alt+9")));
         QVERIFY(shortcuts.keys(CommandId::fit).isEmpty());
         QVERIFY(shortcuts.keys(CommandId::nodes).isEmpty());
     }

@@ -285,6 +285,8 @@ void Journal::discard(const LostWork& lost) {
 void Journal::take_over(const LostWork& lost, quint64 intact_bytes, quint32 records) {
     start_anew();
     writer_->wait();
+    // Who wants nothing written finds it again at the next start.
+    if (!keeps_) return;
     if (!lock_->isLocked() || !QFile::rename(lost.path, file())) return;
     has_begun_ = true;
     records_ = records;

@@ -40,6 +40,7 @@ class ViewBookmarks : public QObject {
 
     /// The bookmarks are those of this file from here on; "" = of none, and nothing can be added.
     void set_mesh(const QString& path);
+    const QString& mesh() const { return path_; }
     const QList<ViewBookmark>& list() const { return list_; }
     bool is_full() const { return list_.size() >= most_of_a_mesh; }
     /// A name that none of them has.

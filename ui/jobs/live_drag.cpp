@@ -154,7 +154,14 @@ void LiveDrag::set_phase(Phase phase) {
     if (is_active() != was_active) emit active_changed(is_active());
 }
 
+void LiveDrag::set_allowed(bool is_allowed) {
+    if (is_allowed == is_allowed_) return;
+    is_allowed_ = is_allowed;
+    emit allowed_changed();
+}
+
 void LiveDrag::begin(const DragRequest& request) {
+    if (!can_begin()) return;
     start_ = document_.state();
     used_rules_ = rules_;
     used_pins_ = pinned_;

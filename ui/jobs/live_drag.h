@@ -39,13 +39,16 @@ class LiveDrag : public QObject {
     /// Computes the weights of the open mesh in the background, so that the first drag need not wait for them.
     void prepare();
 
+    /// Not while a job works on the mesh: its result would come on top of what was dragged in the meantime.
+    void set_allowed(bool is_allowed);
+    bool can_begin() const { return is_allowed_ && !is_active(); }
     bool is_active() const { return phase_ != Phase::idle; }
     /// The response is there: what is seen is live.
     bool is_live() const { return phase_ == Phase::live; }
     /// The hand has let go, and the end is being computed.
     bool is_finishing() const { return phase_ == Phase::finishing; }
 
-    /// Takes hold. pre: document has a mesh, not active. In the course of a drag: changes what is in hand; the motion
+    /// Takes hold; nothing happens if that is not allowed. pre: document has a mesh, not active. In the course of a drag: changes what is in hand; the motion
     /// stays.
     void begin(const DragRequest& request);
     void change(const DragRequest& request);
@@ -60,6 +63,7 @@ class LiveDrag : public QObject {
 
   signals:
     void active_changed(bool is_active);
+    void allowed_changed();
     /// What to show: positions, and the quality if there is a newer one (null = not yet). Both live during the call.
     void frame(const Coordinates& positions, const QualityReport* quality);
     /// The drag is over; is_kept: it becomes a step of the history now. Otherwise the document's state is to be shown.
@@ -92,7 +96,7 @@ class LiveDrag : public QObject {
 
     Phase phase_ = Phase::idle;
     int generation_ = 0;  ///< results of older ones are dropped
-    bool is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
+    bool is_allowed_ = true, is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
     MeshState start_;
     DragRequest request_;
     std::shared_ptr<Drag> drag_;

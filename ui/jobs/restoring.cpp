@@ -37,7 +37,8 @@ LoadedDeformation load(const QString& path, const TaskContext& context) {
 
 /// The mesh of a journal with its nodes where they were when it was opened. The file may have been saved since, or
 /// turned round, but not be another mesh.
-CurvedMesh read_kept_mesh(const JournalContent& content, QStringList& notes, const TaskContext& context) {
+/// opened: gets what else the file has: notes and arrays.
+CurvedMesh read_kept_mesh(const JournalContent& content, OpenedMesh& opened, const TaskContext& context) {
     std::optional<InvalidInput> problem;
     std::vector<std::string> files{content.head.mesh};
     if (content.head.saved != content.head.mesh && !content.head.saved.empty()) files.push_back(content.head.saved);
@@ -63,7 +64,8 @@ CurvedMesh read_kept_mesh(const JournalContent& content, QStringList& notes, con
                 throw InvalidInput(file, 0,
                                    "it has changed since: its nodes or elements are not those of the kept work. The "
                                    "work stays kept; put the file back that it belongs to.");
-            for (const std::string& note : read.notes) notes << QString::fromStdString(note);
+            for (const std::string& note : read.notes) opened.notes << QString::fromStdString(note);
+            opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
             return mesh->with_coordinates(content.opened);
         } catch (const InvalidInput& error) {
             if (!problem) problem = error;
@@ -86,7 +88,7 @@ RestoredWork read_lost_work(const QString& journal_path, const TaskContext& cont
         return part_of(context, state == 0 ? tr("the mesh") : step_title(state, count), begin,
                        begin + 0.9 / static_cast<double>(count + 1));
     };
-    CurvedMesh mesh = read_kept_mesh(content, work.opened.notes, part(0));
+    CurvedMesh mesh = read_kept_mesh(content, work.opened, part(0));
     work.opened.file_path = QString::fromStdString(content.head.mesh);
     work.opened.state = make_state(std::move(mesh), part(0));
 
@@ -166,6 +168,7 @@ RestoredWork redo_session(const QString& session_path, const TaskContext& contex
     };
     ReadResult read = read_mesh(to_path(QString::fromStdString(open.mesh)), part(0));
     for (const std::string& note : read.notes) work.opened.notes << QString::fromStdString(note);
+    work.opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
     work.opened.file_path = QString::fromStdString(open.mesh);
     work.opened.state = make_state(std::move(read.mesh), part(0));
     work.history.session.emplace_back(open);

@@ -96,6 +96,7 @@ void MainWindow::show_coloring() {
         case ColorSetting::Kind::size:
             coloring.source = Coloring::Source::array;
             coloring.array = numbers_now_;
+            coloring.is_of_one_state = true;
             break;
     }
     view_->set_coloring(coloring);

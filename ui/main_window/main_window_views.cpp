@@ -34,6 +34,13 @@ void MainWindow::connect_views() {
     });
     connect(actions_[CommandId::export_film], &QAction::triggered, this, &MainWindow::ask_export_film);
     connect(&document_, &MeshDocument::opened, this, [this] { bookmarks_.set_mesh(document_.file_path()); });
+    connect(&document_, &MeshDocument::file_path_changed, this, [this] {
+        // Saved under another name: the bookmarks come along, unless that file has its own.
+        if (bookmarks_.mesh() == document_.file_path() || !document_.has_mesh()) return;
+        const QList<ViewBookmark> list = bookmarks_.list();
+        bookmarks_.set_mesh(document_.file_path());
+        if (bookmarks_.list().isEmpty()) bookmarks_.set_list(list);
+    });
     connect(&bookmarks_, &ViewBookmarks::changed, this, &MainWindow::fill_bookmarks_menu);
     fill_bookmarks_menu();
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdlib>
+#include <utility>
 
 #include <QCoreApplication>
 #include <QKeyEvent>
@@ -159,9 +160,10 @@ void MeshView::show_frame(const Coordinates& positions, const QualityReport* qua
 void MeshView::set_tool(Tool* tool) {
     Parts& parts = *parts_;
     if (parts.tool == tool) return;
-    parts.tool_has_mouse = false;
+    // Only what is in hand is given up: without that, Esc means more to some tools (the selection).
+    const bool is_in_hand = std::exchange(parts.tool_has_mouse, false);
     if (parts.tool) {
-        parts.tool->cancel();
+        if (is_in_hand) parts.tool->cancel();
         parts.tool->leave();
     }
     parts.tool = tool;
@@ -290,10 +292,7 @@ QImage MeshView::picture(const PictureOptions& options) {
 }
 
 int MeshView::largest_picture_side() {
-    makeCurrent();
-    const int side = curvewright::largest_picture_side();
-    doneCurrent();
-    return side;
+    return parts_->largest_picture_side;
 }
 
 QSize MeshView::device_size() const {
@@ -303,6 +302,8 @@ QSize MeshView::device_size() const {
 
 void MeshView::lend_view(MeshScene& scene) const {
     scene.set_mesh(parts_->state.mesh.get(), parts_->state.quality.get());
+    // Numbers of the present state are of no other state.
+    if (!parts_->scene.coloring().is_of_one_state) scene.set_coloring(parts_->scene.coloring());
     scene.copy_view(parts_->scene, true);
 }
 
@@ -315,6 +316,7 @@ void MeshView::initializeGL() {
     parts.window->SetReadyForRendering(true);
     parts.window->SetMapped(1);
     parts.window->OpenGLInitContext();
+    parts.largest_picture_side = curvewright::largest_picture_side();
     parts.is_stale = true;
 }
 
@@ -327,6 +329,7 @@ void MeshView::release_graphics() {
     parts.behind.poll.stop();
     parts.behind.is_pending = parts.behind.is_finished = false;
     parts.behind.must_wait = true;
+    hold_repaints(false);
     parts.window->Finalize();
     parts.window->SetReadyForRendering(false);
     doneCurrent();
@@ -434,7 +437,8 @@ void MeshView::begin_frame_behind() {
     Parts& parts = *parts_;
     FrameBehind& behind = parts.behind;
     behind.is_scheduled = false;
-    if (behind.is_pending || behind.is_finished || !parts.is_stale) return;
+    if (behind.is_pending || behind.is_finished) return;
+    if (!parts.is_stale) return hold_repaints(false);
     if (behind.must_wait || !isVisible() || !parts.window->GetReadyForRendering()) {
         hold_repaints(false);
         update();

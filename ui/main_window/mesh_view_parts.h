@@ -91,6 +91,7 @@ struct MeshView::Parts {
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
     FrameBehind behind;
+    int largest_picture_side = 0;  ///< pixels that the graphics can draw; 0: there are no graphics yet
     bool may_be_click = false;
     bool legend_has_mouse = false;  ///< between a press on the legend and its release
     QPointer<Tool> tool;

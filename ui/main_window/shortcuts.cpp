@@ -69,6 +69,7 @@ const FixedKeys fixed_list[] = {
     {"PgUp; PgDown", TEXT("Page Up, Page Down"), TEXT("Zoom in and out"), false},
     {"Alt+Left; Alt+Right; Alt+Up; Alt+Down", TEXT("Alt+arrows"), TEXT("Nudge the selected nodes; the mesh follows"), false},
     {"Alt+Shift+Left; Alt+Shift+Right; Alt+Shift+Up; Alt+Shift+Down", TEXT("Alt+Shift+arrows"), TEXT("Nudge them ten times as far"), false},
+    {"Ctrl+1; Ctrl+2; Ctrl+3; Ctrl+4; Ctrl+5; Ctrl+6; Ctrl+7; Ctrl+8; Ctrl+9", TEXT("Ctrl+1 … Ctrl+9"), TEXT("Go to a bookmark of a view"), false},
     {"Tab; Shift+Tab", TEXT("Tab, Shift+Tab"), TEXT("Go to the next or the previous field"), false},
     {"Return; Enter; Space", TEXT("Enter, Space"), TEXT("Choose what the keyboard is at"), false},
     {"Esc", TEXT("Esc"), TEXT("Put back what is in hand, stop a job, select nothing"), false, CommandId::stop},

@@ -41,6 +41,7 @@ EditPanel::EditPanel(EditState& edit, LiveDrag& drag, QWidget* parent) : QWidget
     connect(&edit, &EditState::settings_changed, this, &EditPanel::show_settings);
     connect(&edit, &EditState::selection_changed, this, &EditPanel::show_numbers);
     connect(&drag, &LiveDrag::active_changed, this, &EditPanel::show_numbers);
+    connect(&drag, &LiveDrag::allowed_changed, this, &EditPanel::show_numbers);
     connect(&edit.document(), &MeshDocument::opened, this, &EditPanel::show_numbers);
     show_settings();
     show_numbers();
@@ -95,7 +96,7 @@ void EditPanel::show_numbers() {
     numbers_form_->setRowVisible(axis_, turns && is_solid);
     numbers_[2]->setVisible(is_solid);
     static_cast<QLabel*>(numbers_form_->labelForField(numbers_row_))->setText(is_solid ? tr("x, y, z") : tr("x, y"));
-    const bool can_apply = state.mesh && !without(edit_.nodes(), edit_.pins()).empty() && !drag_.is_active();
+    const bool can_apply = state.mesh && !without(edit_.nodes(), edit_.pins()).empty() && drag_.can_begin();
     apply_->setEnabled(can_apply);
     apply_->setToolTip(edit_.nodes().empty() ? tr("Select nodes first, with the select tool or by a group")
                                              : QString());
@@ -104,7 +105,7 @@ void EditPanel::show_numbers() {
 void EditPanel::apply_numbers() {
     const CurvedMesh& mesh = *edit_.document().state().mesh;
     const IndexSet nodes = without(edit_.nodes(), edit_.pins());
-    if (nodes.empty() || drag_.is_active()) return;
+    if (nodes.empty() || !drag_.can_begin()) return;
     Eigen::RowVector3d low = mesh.coordinates().row(nodes.front()), high = low;
     for (const Index node : nodes) {
         low = low.cwiseMin(mesh.coordinates().row(node));

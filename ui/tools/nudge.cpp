@@ -110,6 +110,10 @@ void Nudge::step(QPoint direction, bool is_large) {
     }
     if (!is_mine_) {
         if (context_.drag.is_active()) return;
+        if (!context_.drag.can_begin()) {
+            emit refused(tr("A job works on the mesh: stop it first, or wait."));
+            return;
+        }
         const IndexSet nodes = without(context_.edit.nodes(), context_.edit.pins());
         if (nodes.empty()) {
             emit refused(context_.edit.nodes().empty()
