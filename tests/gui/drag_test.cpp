@@ -58,6 +58,7 @@ class DragTest : public QObject {
         const QString minimum = test.text("pointer_minimum");
         QVERIFY(minimum.startsWith(QStringLiteral("min 0.")));
         QVERIFY(test.text("after_figures").startsWith(minimum));
+        QVERIFY(test.text("mesh_minimum").endsWith(minimum.mid(4)));
         QCOMPARE(test.text("pointer_validity"), QStringLiteral("✓ all proved valid"));
         test.let_go();
         QVERIFY(!test.find<QWidget>("pointer_tag")->isVisible());
@@ -97,6 +98,7 @@ class DragTest : public QObject {
         QTest::keyClick(&test.view(), Qt::Key_Escape);
         QVERIFY(!test.drag().is_active());
         QCOMPARE(test.text("after_figures"), before);
+        QVERIFY(test.text("mesh_minimum").endsWith(QStringLiteral("1.00")));
         QCOMPARE(test.positions(), opened);
         QCOMPARE(test.document().history()->count(), 0);
         QVERIFY(!test.window->isWindowModified());

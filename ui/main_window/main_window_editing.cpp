@@ -10,6 +10,7 @@
 #include "ui/document/number_format.h"
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/pointer_tag.h"
 #include "ui/panels/quality_panel.h"
@@ -62,6 +63,7 @@ void MainWindow::connect_editing() {
         if (is_kept) return;  // the document has another state
         view_->show_state(document_.state());
         quality_panel_->show_state();
+        mesh_panel_->show_state();
         if (document_.state().quality) show_verdict(document_.state().quality->summary);
     });
     connect(&drag_, &LiveDrag::failed, this,
@@ -152,6 +154,7 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
     if (!quality) return;
     const QualitySummary& summary = quality->summary;
     show_verdict(summary);
+    mesh_panel_->show_quality(summary);
     QString validity = describe_validity(summary);
     if (summary.invalid > 0)
         validity += tr(", worst: element %1")

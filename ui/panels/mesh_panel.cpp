@@ -127,7 +127,10 @@ void MeshPanel::show_state() {
         minimum_->hide();
         return;
     }
-    const QualitySummary& summary = state.quality->summary;
+    show_quality(state.quality->summary);
+}
+
+void MeshPanel::show_quality(const QualitySummary& summary) {
     validity_->setText(describe_validity(summary));
     set_tone(validity_, summary.invalid > 0 ? "alarm" : summary.undecided > 0 ? "warning" : "good");
     minimum_->setText(tr("min scaled Jacobian %1").arg(format_number(summary.min)));

@@ -20,6 +20,9 @@ class MeshPanel : public QWidget {
 
   public:
     explicit MeshPanel(MeshDocument& document, QWidget* parent = nullptr);
+    /// Of the mesh while it is being moved; show_state() ends that.
+    void show_quality(const QualitySummary& summary);
+    void show_state();
 
     /// The history cannot be walked while a job runs.
     void set_history_enabled(bool is_enabled);
@@ -36,7 +39,6 @@ class MeshPanel : public QWidget {
   private:
     QString history_tip(int row) const;
     void show_file();
-    void show_state();
     void show_groups();
 
     MeshDocument& document_;
