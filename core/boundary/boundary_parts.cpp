@@ -153,7 +153,8 @@ void BoundaryParts::add_feature_edge(int facet, int edge) {
     const ElementType type = reference_element(topology_->element_type(its.element)).facets[its.local].type;
     std::vector<Index> nodes;
     for (const int local : reference_element(type).edges[static_cast<std::size_t>(edge)].nodes)
-        nodes.push_back(facet_nodes_[facet_offsets_[static_cast<std::size_t>(facet)] + static_cast<std::size_t>(local)]);
+        nodes.push_back(
+            facet_nodes_[facet_offsets_[static_cast<std::size_t>(facet)] + static_cast<std::size_t>(local)]);
     feature_edges_.push_back(std::move(nodes));
 }
 

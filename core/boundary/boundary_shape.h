@@ -6,9 +6,9 @@
 
 #include <Eigen/Core>
 
-#include "core/mesh/curved_mesh.h"
 #include "core/boundary/boundary_piece.h"
 #include "core/boundary/boundary_rules.h"
+#include "core/mesh/curved_mesh.h"
 
 namespace curvewright {
 

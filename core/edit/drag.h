@@ -30,8 +30,7 @@ struct DragSetup {
 };
 
 /// Who has the weights of a mesh, or computes them.
-using WarperSource =
-    std::function<std::shared_ptr<const Warper>(const CurvedMesh& mesh, const WarpOptions& options)>;
+using WarperSource = std::function<std::shared_ptr<const Warper>(const CurvedMesh& mesh, const WarpOptions& options)>;
 
 /// A boundary in somebody's hand: a set of nodes follows the motion of the hand, the interior follows the boundary, and
 /// the quality of the elements follows both. Setting it up solves for the response once; every frame after that costs a

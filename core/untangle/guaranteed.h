@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "core/base/task.h"
-#include "core/mesh/curved_mesh.h"
 #include "core/boundary/boundary_rules.h"
+#include "core/mesh/curved_mesh.h"
 #include "core/untangle/observer.h"
 
 namespace curvewright {

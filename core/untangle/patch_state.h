@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "core/quality/quality.h"
 #include "core/boundary/boundary_shape.h"
+#include "core/quality/quality.h"
 #include "core/untangle/distortion.h"
 #include "core/untangle/standing.h"
 

@@ -100,13 +100,11 @@ MultiVector ResponseField::dragged_motions(const Warper& warper, const DraggedSe
 void ResponseField::add_following(const BoundaryFollowing& following, const DraggedSet& set, const Coordinates& start,
                                   MultiVector& motions, const TaskContext& context) const {
     const Warper& warper = *following.warper;
-    if (following.projections.size() != following.nodes.size() ||
-        warper.mesh().topology().node_count() != node_count_)
+    if (following.projections.size() != following.nodes.size() || warper.mesh().topology().node_count() != node_count_)
         throw InvalidInput("The following nodes of the boundary do not belong to the mesh that is dragged.");
     const bool is_elastic = warper.fields_per_motion() > 1;
     SolveReport report;
-    const MultiVector response =
-        warper.extend(dragged_motions(warper, set, start, is_elastic), report, context);
+    const MultiVector response = warper.extend(dragged_motions(warper, set, start, is_elastic), report, context);
     const int functions = kind_ == ResponseKind::translation ? 1 : dim_ + 1;
     for (std::size_t i = 0; i < following.nodes.size(); ++i) {
         const Index node = following.nodes[i];

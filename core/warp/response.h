@@ -71,7 +71,8 @@ class ResponseField {
     const std::vector<Index>& moving_nodes() const { return moving_; }
 
   private:
-    MultiVector dragged_motions(const Warper& warper, const DraggedSet& set, const Coordinates& start, bool is_vector) const;
+    MultiVector dragged_motions(const Warper& warper, const DraggedSet& set, const Coordinates& start,
+                                bool is_vector) const;
     void add_following(const BoundaryFollowing& following, const DraggedSet& set, const Coordinates& start,
                        MultiVector& motions, const TaskContext& context) const;
 

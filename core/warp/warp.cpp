@@ -206,7 +206,8 @@ void Warper::Data::set_up(const TaskContext& context) {
     for (Index node = 0; node < topology.node_count(); ++node)
         if (is_given[static_cast<std::size_t>(node)]) given_nodes.push_back(node);
     if (given_nodes.empty())
-        throw InvalidInput("All nodes of the boundary are to follow; at least one whose position is given was expected.");
+        throw InvalidInput(
+            "All nodes of the boundary are to follow; at least one whose position is given was expected.");
     const bool is_elastic = options.weighting == Weighting::elastic;
     block = is_elastic ? topology.dimension() : 1;
     // Sets with all nodes of an element have room for what condensation adds; smaller ones have not.
@@ -218,7 +219,8 @@ void Warper::Data::set_up(const TaskContext& context) {
         report.solver_note = "The mesh has no interior nodes; only its boundary moves.";
         return;
     }
-    // Following nodes move by what happens along the boundary: of all affine motions they take part in translations only.
+    // Following nodes move by what happens along the boundary: of all affine motions they take part in translations
+    // only.
     affine = AffineFit(mesh, given_nodes, !following_nodes.empty());
     LinearSystem system;
     BlockMatrix all = equations(system.coarse, context);

@@ -86,8 +86,8 @@ struct WarpResult {
 /// A mesh made ready to be warped: weights computed, equations set up and factored (or their preconditioner made) once,
 /// for any number of boundary positions. The interior's displacement is a linear function of the boundary's. The affine
 /// motion that fits the boundary's best is applied to the interior as it is, and the equations are solved for the rest
-/// only, so affine motions come out exact whatever the solver's tolerance (with following nodes: translations). Any element shapes, orders 1 to 10; pyramids
-/// not with elastic. Immutable; safe to use from several threads at once.
+/// only, so affine motions come out exact whatever the solver's tolerance (with following nodes: translations). Any
+/// element shapes, orders 1 to 10; pyramids not with elastic. Immutable; safe to use from several threads at once.
 class Warper {
   public:
     /// Throws Unsupported (dimension, neighbours), InvalidInput (options), SolverFailure, Cancelled.

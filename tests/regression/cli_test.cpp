@@ -135,15 +135,15 @@ TEST_F(CommandLine, RenderNeedsNoDisplay) {
 TEST_F(CommandLine, RenderLooksInside) {
     const std::string screw = samples + "screw/screw.msh.gz";
     std::vector<std::string> pictures;
-    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{
-             {},
-             {"--clip", "z"},
-             {"--cut", "z"},
-             {"--cut", "z", "--clip-at", "0.3"},
-             {"--cut", "y", "--clip-at", "0.3"},
-             {"--orthographic"},
-             {"--node-numbers"},
-             {"--element-numbers"}}) {
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{},
+                                               {"--clip", "z"},
+                                               {"--cut", "z"},
+                                               {"--cut", "z", "--clip-at", "0.3"},
+                                               {"--cut", "y", "--clip-at", "0.3"},
+                                               {"--orthographic"},
+                                               {"--node-numbers"},
+                                               {"--element-numbers"}}) {
         const std::string picture = folder / "inside.png";
         std::vector<std::string> arguments{"render", screw, "-o", picture, "--size", "320x240"};
         arguments.insert(arguments.end(), options.begin(), options.end());

@@ -34,7 +34,8 @@ struct OpenedMesh {
     MeshState state;
     QString file_path;
     QStringList notes;  ///< what the reader passed over or repaired
-    /// The file's arrays of numbers on nodes and elements; null = none. They go with the mesh through all of its states.
+    /// The file's arrays of numbers on nodes and elements; null = none. They go with the mesh through all of its
+    /// states.
     std::shared_ptr<const std::vector<FieldArray>> fields;
 };
 

@@ -20,7 +20,8 @@ constexpr double longest_wait = 0.02;  ///< seconds
 bool is_same(const WarpOptions& a, const WarpOptions& b) {
     return a.weighting == b.weighting && a.distance_power == b.distance_power && a.sharing_power == b.sharing_power &&
            a.neighbours == b.neighbours && a.outside_hull == b.outside_hull && a.poisson_ratio == b.poisson_ratio &&
-           a.stiffening == b.stiffening && a.prescribed_nodes == b.prescribed_nodes && a.following_nodes == b.following_nodes && a.solver == b.solver;
+           a.stiffening == b.stiffening && a.prescribed_nodes == b.prescribed_nodes &&
+           a.following_nodes == b.following_nodes && a.solver == b.solver;
 }
 
 bool is_rest(const AffineMotion& motion) {
@@ -279,26 +280,26 @@ void LiveDrag::step() {
 void LiveDrag::certify_behind(const Coordinates& at) {
     is_certifying_ = true;
     is_newer_ = false;
-    worker_->start([this, generation = generation_, drag = drag_, report = report_,
-                    positions = at](const TaskContext& context) {
-        const Stopwatch watch;
-        try {
-            drag->certify(positions, *report, context);
-        } catch (const Cancelled&) {
-            return;
-        }
-        QMetaObject::invokeMethod(
-            this,
-            [this, generation, report, seconds = watch.seconds()] {
-                if (generation != generation_) return;
-                is_certifying_ = false;
-                certify_seconds_ = seconds;
-                if (finishes_) return keep(report);
-                emit frame(drag_->positions(), report.get());
-                if (is_newer_) certify_behind(drag_->positions());
-            },
-            Qt::QueuedConnection);
-    });
+    worker_->start(
+        [this, generation = generation_, drag = drag_, report = report_, positions = at](const TaskContext& context) {
+            const Stopwatch watch;
+            try {
+                drag->certify(positions, *report, context);
+            } catch (const Cancelled&) {
+                return;
+            }
+            QMetaObject::invokeMethod(
+                this,
+                [this, generation, report, seconds = watch.seconds()] {
+                    if (generation != generation_) return;
+                    is_certifying_ = false;
+                    certify_seconds_ = seconds;
+                    if (finishes_) return keep(report);
+                    emit frame(drag_->positions(), report.get());
+                    if (is_newer_) certify_behind(drag_->positions());
+                },
+                Qt::QueuedConnection);
+        });
 }
 
 void LiveDrag::finish() {

@@ -48,8 +48,8 @@ class LiveDrag : public QObject {
     /// The hand has let go, and the end is being computed.
     bool is_finishing() const { return phase_ == Phase::finishing; }
 
-    /// Takes hold; nothing happens if that is not allowed. pre: document has a mesh, not active. In the course of a drag: changes what is in hand; the motion
-    /// stays.
+    /// Takes hold; nothing happens if that is not allowed. pre: document has a mesh, not active. In the course of a
+    /// drag: changes what is in hand; the motion stays.
     void begin(const DragRequest& request);
     void change(const DragRequest& request);
     /// While true no frames are made: whoever shows them is still busy with the last one.
@@ -96,7 +96,8 @@ class LiveDrag : public QObject {
 
     Phase phase_ = Phase::idle;
     int generation_ = 0;  ///< results of older ones are dropped
-    bool is_allowed_ = true, is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false, finishes_ = false;
+    bool is_allowed_ = true, is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false,
+         finishes_ = false;
     MeshState start_;
     DragRequest request_;
     std::shared_ptr<Drag> drag_;

@@ -16,8 +16,8 @@ namespace curvewright {
 namespace {
 
 /// What a bookmark remembers of what is shown, besides the cut.
-constexpr CommandId shown_commands[] = {CommandId::edges, CommandId::nodes, CommandId::shrink, CommandId::worst_only,
-                                        CommandId::clip,  CommandId::orthographic};
+constexpr CommandId shown_commands[] = {CommandId::edges,      CommandId::nodes, CommandId::shrink,
+                                        CommandId::worst_only, CommandId::clip,  CommandId::orthographic};
 
 }  // namespace
 
@@ -94,7 +94,8 @@ void MainWindow::go_to_bookmark(int number) {
     const QJsonObject cut = bookmark.shown[QStringLiteral("cut")].toObject();
     if (!cut.isEmpty())
         clip_bar_->set_setting({cut[QStringLiteral("axis")].toInt(), cut[QStringLiteral("flipped")].toBool(),
-                                cut[QStringLiteral("position")].toDouble(0.5), cut[QStringLiteral("through")].toBool()});
+                                cut[QStringLiteral("position")].toDouble(0.5),
+                                cut[QStringLiteral("through")].toBool()});
     for (const CommandId id : shown_commands) {
         const QJsonValue is_shown = bookmark.shown[actions_[id]->objectName()];
         if (is_shown.isBool() && actions_[id]->isEnabled()) actions_[id]->setChecked(is_shown.toBool());

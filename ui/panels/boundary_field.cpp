@@ -17,7 +17,7 @@ constexpr int group_row_height = 36, mode_width = 110;
 
 BoundaryField::BoundaryField(const QString& name, const Texts& texts, QObject* parent) : QObject(parent), name_(name) {
     std::vector<curvewright::Choice> choices{{tr("Stays"), int(Mode::fixed), texts.fixed},
-                                       {tr("Slides along itself"), int(Mode::slide), texts.slide}};
+                                             {tr("Slides along itself"), int(Mode::slide), texts.slide}};
     if (!texts.free.isEmpty()) choices.push_back({tr("Follows freely"), int(Mode::free), texts.free});
     choices.push_back({tr("By group"), int(Mode::by_group), texts.by_group});
     choice_ = make_choice(name.toLatin1().constData(), texts.tip, choices);

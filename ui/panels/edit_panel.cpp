@@ -206,9 +206,9 @@ void EditPanel::make_fields() {
         this);
     anew_ = new QCheckBox(tr("New weights when let go"));
     anew_->setObjectName(QStringLiteral("solves_anew"));
-    anew_->setToolTip(
-        tr("At the end of a drag the interior is solved for once more, with weights of the mesh as it was before it.\n"
-           "Better after large motions; otherwise what is seen in hand is kept, with the weights of the mesh as opened."));
+    anew_->setToolTip(tr(
+        "At the end of a drag the interior is solved for once more, with weights of the mesh as it was before it.\n"
+        "Better after large motions; otherwise what is seen in hand is kept, with the weights of the mesh as opened."));
 
     form_ = make_form();
     form_->addRow(tr("Takes"), unit_);

@@ -35,7 +35,7 @@ struct Coloring {
     std::string title, detail;
     std::shared_ptr<const FieldArray> array;
     bool is_of_one_state = false;  ///< the array was computed of the positions that are shown
-    int component = -1;  ///< of an array: from 0; -1 = the length of the vectors
+    int component = -1;            ///< of an array: from 0; -1 = the length of the vectors
     std::shared_ptr<const Coordinates> reference;
 };
 

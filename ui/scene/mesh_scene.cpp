@@ -111,8 +111,8 @@ struct MeshScene::Parts {
     WorldFrame frame;
     std::vector<bool> visible;
     std::unique_ptr<Tessellation> tessellation;
-    std::unique_ptr<PlaneCut> section;                            ///< none: nothing is cut
-    double typical_spacing = 0.0;                                 ///< world
+    std::unique_ptr<PlaneCut> section;                     ///< none: nothing is cut
+    double typical_spacing = 0.0;                          ///< world
     int fineness_part = 0;                                 ///< of the pieces, looked at last in a motion
     std::chrono::steady_clock::time_point next_section{};  ///< of a motion
 
@@ -469,7 +469,8 @@ void MeshScene::show_frame(const Coordinates& positions, const QualityReport* qu
     Parts& parts = *parts_;
     if (!parts.mesh) return;
     // Quality that follows a moment later comes with the positions that are shown already.
-    const bool has_moved = positions.rows() != parts.mesh->coordinates().rows() || positions != parts.mesh->coordinates();
+    const bool has_moved =
+        positions.rows() != parts.mesh->coordinates().rows() || positions != parts.mesh->coordinates();
     if (has_moved) parts.mesh = parts.mesh->with_coordinates(positions);
     if (quality) {
         if (quality->elements.size() != static_cast<std::size_t>(parts.mesh->topology().element_count()))

@@ -30,10 +30,10 @@ class SurfaceActor {
     /// is_new: the connectivity is not that of the call before.
     void set_surface(const Tessellation& tessellation, bool is_new);
     void set_colors(const Tessellation& tessellation, const std::function<Color(Index element)>& color_of);
-    /// Instead of a tessellation: the section's inside, of the elements that are wanted. Returns the point of the section
-    /// that each of the surface's points is.
+    /// Instead of a tessellation: the section's inside, of the elements that are wanted. Returns the point of the
+    /// section that each of the surface's points is.
     std::vector<Index> set_section(const PlaneCut& section, const std::function<bool(Index element)>& is_wanted,
-                     const std::function<Color(Index element)>& color_of);
+                                   const std::function<Color(Index element)>& color_of);
     /// values: one per surface point, NaN = none; between the points they, not their colours, are interpolated.
     void set_field(const std::vector<double>& values, const ColorScale& scale);
     void clear();

@@ -51,10 +51,10 @@ class TransformTool : public Tool {
     std::optional<Index> hovered_node_;  ///< without a selection
     bool is_held_ = false;
     Handle held_{HandleKind::arrow, 0};
-    Eigen::RowVector3d pivot_ = Eigen::RowVector3d::Zero();  ///< where the drag began
+    Eigen::RowVector3d pivot_ = Eigen::RowVector3d::Zero();       ///< where the drag began
     Eigen::RowVector3d handles_at_ = Eigen::RowVector3d::Zero();  ///< where they were when the drag began
-    double length_ = 1.0;                                    ///< of an arrow then, mesh units
-    double start_ = 0.0, value_ = 0.0, last_angle_ = 0.0;    ///< angle or place; value: what is told and named
+    double length_ = 1.0;                                         ///< of an arrow then, mesh units
+    double start_ = 0.0, value_ = 0.0, last_angle_ = 0.0;         ///< angle or place; value: what is told and named
     QPointF press_;
     IndexSet nodes_;
     DraggedSet dragged_;

@@ -58,9 +58,9 @@ TEST(BoundaryFollowers, AreWhatTheRulesLetMove) {
         const Eigen::RowVector3d at = mesh.coordinates().row(followers.nodes()[i]);
         const bool is_right = at[0] == 1.0;
         EXPECT_TRUE(is_right ? at[1] > 0.0 && at[1] < 1.0 : at[1] == 1.0 && at[0] > 0.0) << at;
-        const Eigen::Matrix3d wanted =
-            is_right ? Eigen::Matrix3d(Eigen::Vector3d::UnitY() * Eigen::RowVector3d::UnitY())
-                     : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
+        const Eigen::Matrix3d wanted = is_right
+                                           ? Eigen::Matrix3d(Eigen::Vector3d::UnitY() * Eigen::RowVector3d::UnitY())
+                                           : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
         EXPECT_LT((followers.projections()[i] - wanted).norm(), 1e-12);
     }
     EXPECT_EQ(followers.nodes().size(), 10u);
@@ -119,7 +119,8 @@ TEST(BoundaryFollowers, SlidingNodesStayOnTheCurveAndTheInteriorIsTheirWarp) {
 
         QualityReport live = *report;
         drag.certify(end, live);
-        const QualityReport anew = assess_quality(mesh.with_coordinates(end), {.orientation_sign = report->orientation_sign});
+        const QualityReport anew =
+            assess_quality(mesh.with_coordinates(end), {.orientation_sign = report->orientation_sign});
         for (std::size_t i = 0; i < live.elements.size(); ++i)
             EXPECT_EQ(live.elements[i].scaled_jacobian, anew.elements[i].scaled_jacobian);
     }

@@ -33,9 +33,9 @@ struct Case {
 };
 
 std::vector<Case> cases() {
-    return {{"P1 triangles", square_mesh(4, 1)},       {"P3 triangles", square_mesh(4, 3)},
-            {"P2 quadrilaterals", quad_mesh(4, 2)},    {"P2 tetrahedra", cube_mesh(3, 2)},
-            {"P2 hexahedra", hex_mesh(3, 2)},          {"mixed", mixed_square_mesh(4, 3)}};
+    return {{"P1 triangles", square_mesh(4, 1)},    {"P3 triangles", square_mesh(4, 3)},
+            {"P2 quadrilaterals", quad_mesh(4, 2)}, {"P2 tetrahedra", cube_mesh(3, 2)},
+            {"P2 hexahedra", hex_mesh(3, 2)},       {"mixed", mixed_square_mesh(4, 3)}};
 }
 
 TEST(FollowingBoundary, StretchesLikeABarBetweenTwoEnds) {
@@ -51,8 +51,7 @@ TEST(FollowingBoundary, StretchesLikeABarBetweenTwoEnds) {
             const bool is_flat = mesh.topology().dimension() == 2;
             const Eigen::RowVector3d pull(0.1, 0.02, is_flat ? 0.0 : -0.03);
             Coordinates wanted = mesh.coordinates(), boundary = mesh.coordinates();
-            for (Index node = 0; node < wanted.rows(); ++node)
-                wanted.row(node) += mesh.coordinates()(node, 0) * pull;
+            for (Index node = 0; node < wanted.rows(); ++node) wanted.row(node) += mesh.coordinates()(node, 0) * pull;
             for (const Index node : warper.given_nodes()) boundary.row(node) = wanted.row(node);
             const WarpResult result = warper.move(boundary);
             EXPECT_LT((result.coordinates - wanted).cwiseAbs().maxCoeff(), 1e-9) << name << " " << to_string(weighting);
@@ -66,8 +65,7 @@ TEST(FollowingBoundary, TranslationsAreExactAndWeightsStayConvex) {
     WarpOptions options;
     // All but one side.
     for (const Index node : mesh.topology().boundary_nodes()) options.following_nodes.push_back(node);
-    for (const Index node : group(mesh, "left"))
-        std::erase(options.following_nodes, node);
+    for (const Index node : group(mesh, "left")) std::erase(options.following_nodes, node);
     const Warper warper(mesh, options);
     EXPECT_TRUE(warper.setup_report().outside_hull.empty());
     EXPECT_EQ(warper.given_nodes(), group(mesh, "left"));
