@@ -37,7 +37,7 @@ void write(const std::filesystem::path& file, const std::string& bytes) {
 }
 
 JournalStep step_of(const std::string& name, Action action) {
-    return {name, "how \"" + name + "\" went,\nline 2", std::move(action), {"/work/a.json", "ünï.json"}};
+    return {name, "how \"" + name + "\" went,\nline 2", std::move(action), {"/meshes/a.json", "ünï.json"}};
 }
 
 /// A history in which everything occurs: open, two steps, back by one, another step, saved, back to the start, redo.
@@ -53,16 +53,16 @@ struct Work {
         x[2].row(0) << 1.0 / 3.0, 2.0, std::nextafter(1.0, 2.0);
         x[3] = x[1];
         x[3].row(5) << -0.0, 0.0, 0.0;
-        JournalHead head{"/work/square.msh", "/work/square.msh", 0, fingerprint(mesh.topology())};
+        JournalHead head{"/meshes/square.msh", "/meshes/square.msh", 0, fingerprint(mesh.topology())};
         records.push_back(journal_head(head, x[0]));
         records.push_back(journal_step(1, 0, step_of("one", FlipAction{}), x[0], x[1]));
-        records.push_back(journal_deformation(2, "/work/a.json"));
-        records.push_back(journal_step(3, 1, step_of("two", DeformAction{"/work/a.json"}), x[1], x[2]));
+        records.push_back(journal_deformation(2, "/meshes/a.json"));
+        records.push_back(journal_step(3, 1, step_of("two", DeformAction{"/meshes/a.json"}), x[1], x[2]));
         records.push_back(journal_jump(4, 1));
         PlaceAction place;
         place.rows.push_back({{6}, {-0.0, 0.0, 0.0}});
         records.push_back(journal_step(5, 1, step_of("three", place), x[1], x[3]));
-        records.push_back(journal_clean(6, 2, "/work/saved.msh"));
+        records.push_back(journal_clean(6, 2, "/meshes/saved.msh"));
         records.push_back(journal_jump(7, 0));
         records.push_back(journal_jump(8, 1));
     }
@@ -86,34 +86,34 @@ TEST(JournalFile, AllOfTheHistoryComesBackBitForBit) {
     EXPECT_EQ(content.damage, "");
     EXPECT_EQ(content.records, work.records.size());
     EXPECT_EQ(content.intact_bytes, std::filesystem::file_size(folder.file()));
-    EXPECT_EQ(content.head.mesh, "/work/square.msh");
-    EXPECT_EQ(content.head.saved, "/work/saved.msh");
+    EXPECT_EQ(content.head.mesh, "/meshes/square.msh");
+    EXPECT_EQ(content.head.saved, "/meshes/saved.msh");
     EXPECT_EQ(content.head.clean, 2);
     EXPECT_EQ(content.head.topology, fingerprint(work.mesh.topology()));
     EXPECT_TRUE(is_same(content.opened, work.x[0]));
     ASSERT_EQ(content.steps.size(), 2u);
     EXPECT_EQ(content.index, 1);
-    EXPECT_EQ(content.deformation, "/work/a.json");
+    EXPECT_EQ(content.deformation, "/meshes/a.json");
     EXPECT_EQ(content.steps[0].name, "one");
     EXPECT_EQ(content.steps[1].name, "three");
     EXPECT_EQ(content.steps[1].details, "how \"three\" went,\nline 2");
-    EXPECT_EQ(content.steps[1].applied_deformations, (std::vector<std::string>{"/work/a.json", "ünï.json"}));
+    EXPECT_EQ(content.steps[1].applied_deformations, (std::vector<std::string>{"/meshes/a.json", "ünï.json"}));
     EXPECT_TRUE(std::holds_alternative<FlipAction>(content.steps[0].action));
     EXPECT_TRUE(std::holds_alternative<PlaceAction>(content.steps[1].action));
     EXPECT_TRUE(is_same(content.steps[0].positions, work.x[1]));
     EXPECT_TRUE(is_same(content.steps[1].positions, work.x[3]));
     EXPECT_EQ(session_text(content.session),
-              "{\"action\":\"open\",\"mesh\":\"/work/square.msh\"}\n"
+              "{\"action\":\"open\",\"mesh\":\"/meshes/square.msh\"}\n"
               "{\"action\":\"flip\"}\n"
-              "{\"action\":\"deform\",\"deformation\":\"/work/a.json\"}\n"
+              "{\"action\":\"deform\",\"deformation\":\"/meshes/a.json\"}\n"
               "{\"action\":\"history\",\"step\":1}\n"
               "{\"action\":\"place\",\"nodes\":[[6,-0.0,0.0,0.0]]}\n"
               "{\"action\":\"history\",\"step\":0}\n"
               "{\"action\":\"history\",\"step\":1}\n");
 
     const JournalSummary summary = summarize_journal(folder.file());
-    EXPECT_EQ(summary.mesh, "/work/square.msh");
-    EXPECT_EQ(summary.saved, "/work/saved.msh");
+    EXPECT_EQ(summary.mesh, "/meshes/square.msh");
+    EXPECT_EQ(summary.saved, "/meshes/saved.msh");
     EXPECT_EQ(summary.steps, std::vector<std::string>{"one"});
     EXPECT_TRUE(summary.is_dirty());
     EXPECT_GT(summary.time, 1577836800000);  // 2020
@@ -137,7 +137,7 @@ TEST(JournalFile, WhatReplacesTheSavedStateIsNotSaved) {
     const Work work;
     JournalFile journal(folder.file());
     for (std::size_t i = 0; i < 2; ++i) journal.append(work.records[i]);
-    journal.append(journal_clean(2, 1, "/work/square.msh"));
+    journal.append(journal_clean(2, 1, "/meshes/square.msh"));
     EXPECT_FALSE(summarize_journal(folder.file()).is_dirty());
     journal.append(journal_jump(3, 0));
     EXPECT_TRUE(summarize_journal(folder.file()).is_dirty());
