@@ -186,7 +186,7 @@ TEST(Scene, OutlineOfASolidElementIsWhole) {
         its.frame_start();
         drawn.set_highlighted_elements({element});
         drawn.copy_view(its.scene);
-        const auto file = std::filesystem::temp_directory_path() / "curvewright_outline.png";
+        const auto file = temporary_picture("outline");
         render_png(drawn, width, height, file);
         const Image image = read_image(file);
         const Eigen::MatrixX3d x = its.mesh.element_coordinates(element);  // 4 corners, then a node on each side

@@ -18,7 +18,7 @@ namespace {
 constexpr int width = 420, height = 300;
 
 std::filesystem::path output() {
-    return std::filesystem::temp_directory_path() / "curvewright_coloring.png";
+    return temporary_picture("coloring");
 }
 
 /// A picture of a flat mesh that fills its bounding box, without inner lines, and what it takes to ask it for the

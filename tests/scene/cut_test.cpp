@@ -27,7 +27,7 @@ Image picture(const Window& its) {
     scene.set_options(its.scene.options());
     scene.set_mesh(&its.mesh, &its.report);
     scene.copy_view(its.scene);
-    const auto file = std::filesystem::temp_directory_path() / "curvewright_cut.png";
+    const auto file = temporary_picture("cut");
     render_png(scene, width, height, file);
     return read_image(file);
 }
@@ -166,7 +166,7 @@ TEST(Cut, TheEdgesEndAtThePlane) {
     drawn.set_mesh(&its.mesh, &tangled);
     drawn.set_highlighted_elements({0, its.mesh.topology().element_count() - 1});
     drawn.copy_view(its.scene);
-    const auto file = std::filesystem::temp_directory_path() / "curvewright_cut.png";
+    const auto file = temporary_picture("cut");
     render_png(drawn, width, height, file);
     const Image image = read_image(file);
     const int top = static_cast<int>(its.display({0.0, 0.0, 0.0})[1]) + 8;

@@ -1,5 +1,7 @@
 #include "tests/scene/image_compare.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
@@ -9,6 +11,20 @@
 #include <vtkPNGReader.h>
 
 namespace curvewright {
+
+std::filesystem::path temporary_picture(const std::string& name) {
+    struct Files {
+        std::vector<std::filesystem::path> paths;
+        ~Files() {
+            std::error_code ignored;
+            for (const auto& path : paths) std::filesystem::remove(path, ignored);
+        }
+    };
+    static Files files;
+    files.paths.push_back(std::filesystem::temp_directory_path() /
+                          ("curvewright_" + name + "_" + std::to_string(::getpid()) + ".png"));
+    return files.paths.back();
+}
 
 Image read_image(const std::filesystem::path& file) {
     if (!std::filesystem::exists(file)) throw std::runtime_error(file.string() + " is missing");

@@ -13,6 +13,9 @@ struct Image {
     const unsigned char* pixel(int x, int y) const { return rgb.data() + 3 * (y * width + x); }  ///< y from the bottom
 };
 
+/// Where a test may put a picture: a file of this process alone, for tests run beside each other.
+std::filesystem::path temporary_picture(const std::string& name);
+
 /// Throws std::runtime_error if the file is not a picture with three channels.
 Image read_image(const std::filesystem::path& file);
 

@@ -15,7 +15,7 @@ namespace {
 constexpr int width = 400, height = 300;
 
 std::filesystem::path output(const std::string& name) {
-    return std::filesystem::temp_directory_path() / ("curvewright_" + name + ".png");
+    return temporary_picture(name);
 }
 
 /// Draws the scene and holds it against tests/scene/baselines/NAME.png. A missing baseline fails; with

@@ -166,7 +166,7 @@ TEST(Numbers, AreLegibleOnEveryGroundAndAtEverySize) {
             options.pixel_ratio = ratio;
             scene.set_options(options);
             scene.set_mesh(&mesh, &report);
-            const auto file = std::filesystem::temp_directory_path() / "curvewright_numbers.png";
+            const auto file = temporary_picture("numbers");
             const int wide = static_cast<int>(width * ratio), high = static_cast<int>(height * ratio);
             render_png(scene, wide, high, file);
             const Image image = read_image(file);

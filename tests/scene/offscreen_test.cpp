@@ -18,7 +18,7 @@ namespace curvewright {
 namespace {
 
 std::filesystem::path output() {
-    return std::filesystem::temp_directory_path() / "curvewright_offscreen.png";
+    return temporary_picture("offscreen");
 }
 
 bool is_close(const unsigned char* pixel, const Color& color) {
