@@ -230,8 +230,8 @@ WeightFunction affine_weighting(double distance_power, double sharing_power) {
 
 namespace {
 
-/// The weights of a patch and its image behind the plane with a normal (dimension entries), added up. indices, shared:
-/// of the patch; offsets: neighbours × dimension.
+/// The weights of a patch and its image behind the plane with a normal (dimension entries), added up. Arguments as
+/// in Patch.
 PatchStatus mirrored_weights(Index center, std::span<const Index> neighbours,
                              const Eigen::Ref<const Eigen::MatrixXd>& offsets, std::span<const std::uint16_t> shared,
                              const Eigen::VectorXd& normal, const WeightFunction& weighting,

@@ -48,7 +48,7 @@ struct CameraPose {
 class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
   public:
     static DeferringRenderWindow* New();
-    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow);
+    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow)
 
     void set_deferring(bool is_deferring) { is_deferring_ = is_deferring; }
     void Frame() override {

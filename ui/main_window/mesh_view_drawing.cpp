@@ -1,0 +1,225 @@
+// How the view's frames come about: at once in a repaint of the window, or behind it while the event loop goes on.
+
+#include <QCoreApplication>
+#include <QEvent>
+#include <QOpenGLContext>
+#include <QOpenGLVersionFunctionsFactory>
+
+#include <vtkObjectFactory.h>
+#include <vtkOpenGLState.h>
+#include <vtkRenderer.h>
+
+#include "ui/main_window/mesh_view_parts.h"
+#include "ui/main_window/picture_drawing.h"
+
+namespace curvewright {
+
+vtkStandardNewMacro(DeferringRenderWindow);
+
+void MeshView::initializeGL() {
+    Parts& parts = *parts_;
+    parts.gl = QOpenGLVersionFunctionsFactory::get<QOpenGLFunctions_3_2_Core>(context());
+    if (!parts.gl) qFatal("The OpenGL context of the view lacks OpenGL 3.2.");
+    connect(context(), &QOpenGLContext::aboutToBeDestroyed, this, &MeshView::release_graphics, Qt::UniqueConnection);
+    parts.window->SetForceMaximumHardwareLineWidth(1);
+    parts.window->SetReadyForRendering(true);
+    parts.window->SetMapped(1);
+    parts.window->OpenGLInitContext();
+    parts.largest_picture_side = curvewright::largest_picture_side();
+    parts.is_stale = true;
+}
+
+void MeshView::release_graphics() {
+    Parts& parts = *parts_;
+    if (!parts.window->GetReadyForRendering()) return;
+    makeCurrent();
+    if (parts.behind.fence) parts.gl->glDeleteSync(parts.behind.fence);
+    parts.behind.fence = nullptr;
+    parts.behind.poll.stop();
+    parts.behind.is_pending = parts.behind.is_finished = false;
+    parts.behind.must_wait = true;
+    hold_repaints(false);
+    parts.window->Finalize();
+    parts.window->SetReadyForRendering(false);
+    doneCurrent();
+}
+
+void MeshView::resizeGL(int, int) {
+    finish_frame_behind();
+    // The framebuffer's own size: rounding of fractional ratios is Qt's.
+    const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
+    parts_->window->SetSize(size.width(), size.height());
+    parts_->interactor->SetSize(size.width(), size.height());
+    if (parts_->options.pixel_ratio != devicePixelRatioF()) scale_to_device();
+    parts_->is_stale = parts_->behind.must_wait = true;
+}
+
+void MeshView::paintGL() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    // Whatever else has the window repainted now cannot be drawn before the frame.
+    if (behind.is_pending || behind.is_finished) {
+        finish_frame_behind();
+    } else if (parts.is_stale && (behind.must_wait || !behind.is_on())) {
+        behind.clock.start();
+        render(true);
+        behind.must_wait = false;
+        tell_drawn();
+    }
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    const int* size = parts.window->GetSize();
+    parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
+    parts.gl->glDrawBuffer(GL_COLOR_ATTACHMENT0);
+    state->vtkglDisable(GL_SCISSOR_TEST);
+    state->vtkglDisable(GL_BLEND);
+    parts.window->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
+                                         GL_NEAREST);
+    // Opaque whatever VTK has left in the alpha channel: the window below must not shine through.
+    parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
+    state->vtkglClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+    parts.gl->glClear(GL_COLOR_BUFFER_BIT);
+    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    state->Pop();
+    parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    if (parts.is_stale) request_frame();
+}
+
+void MeshView::render(bool waits) {
+    Parts& parts = *parts_;
+    parts.is_stale = false;
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
+    state->vtkglDepthFunc(GL_LEQUAL);
+    parts.window->set_deferring(!waits);
+    parts.window->Render();
+    parts.window->set_deferring(false);
+    state->Pop();
+}
+
+void MeshView::tell_drawn() {
+    Parts& parts = *parts_;
+    // Both ends of the range apart, so that the mode does not change with every frame.
+    constexpr qint64 slow = 45, quick = 20;  // milliseconds
+    const qint64 took = parts.behind.clock.elapsed();
+    parts.behind.is_slow = took > slow || (parts.behind.is_slow && took > quick);
+    emit frame_drawn();
+    const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
+    if (!(pose == parts.told_pose)) {
+        parts.told_pose = pose;
+        emit camera_moved();
+    }
+}
+
+void MeshView::request_frame() {
+    parts_->is_stale = true;
+    const FrameBehind& behind = parts_->behind;
+    if (!behind.is_on() || behind.must_wait || !isVisible())
+        update();
+    else if (!behind.is_pending && !behind.is_finished)
+        schedule_frame_behind();
+}
+
+void MeshView::set_drawing_mode(DrawingMode mode) {
+    parts_->behind.mode = mode;
+    request_frame();
+}
+
+bool MeshView::has_frame_under_way() const {
+    return parts_->is_stale || parts_->behind.is_pending || parts_->behind.is_finished;
+}
+
+void MeshView::schedule_frame_behind() {
+    FrameBehind& behind = parts_->behind;
+    if (behind.is_scheduled) return;
+    behind.is_scheduled = true;
+    // A repaint now would have to be done again when the frame is there.
+    hold_repaints(true);
+    QTimer::singleShot(0, this, &MeshView::begin_frame_behind);
+}
+
+void MeshView::begin_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    behind.is_scheduled = false;
+    if (behind.is_pending || behind.is_finished) return;
+    if (!parts.is_stale) return hold_repaints(false);
+    if (behind.must_wait || !isVisible() || !parts.window->GetReadyForRendering()) {
+        hold_repaints(false);
+        update();
+        return;
+    }
+    makeCurrent();
+    behind.clock.start();
+    render(false);
+    behind.fence = parts.gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    parts.gl->glFlush();
+    doneCurrent();
+    behind.is_pending = true;
+    constexpr int interval = 3;  // milliseconds
+    behind.poll.start(interval);
+    emit frame_begun();
+}
+
+void MeshView::poll_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    if (behind.is_pending && behind.fence) {
+        makeCurrent();
+        const GLenum state = parts.gl->glClientWaitSync(behind.fence, 0, 0);
+        doneCurrent();
+        if (state == GL_TIMEOUT_EXPIRED) return;
+    }
+    behind.poll.stop();
+    behind.is_finished = behind.is_pending;
+    behind.is_pending = false;
+    hold_repaints(false);
+    update();
+}
+
+void MeshView::finish_frame_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    hold_repaints(false);
+    if (!behind.is_pending && !behind.is_finished) return;
+    behind.poll.stop();
+    behind.is_pending = behind.is_finished = false;
+    if (behind.fence) parts.gl->glDeleteSync(behind.fence);
+    behind.fence = nullptr;
+    vtkOpenGLState* state = parts.window->GetState();
+    state->Reset();
+    state->Push();
+    parts.window->Frame();
+    state->Pop();
+    tell_drawn();
+}
+
+void MeshView::hold_repaints(bool is_held) {
+    FrameBehind& behind = parts_->behind;
+    if (is_held) {
+        if (behind.held_window) return;
+        behind.held_window = window();
+        behind.held_window->installEventFilter(this);
+        return;
+    }
+    if (!behind.held_window) return;
+    behind.held_window->removeEventFilter(this);
+    if (behind.has_held) QCoreApplication::postEvent(behind.held_window, new QEvent(QEvent::UpdateRequest));
+    behind.has_held = false;
+    behind.held_window = nullptr;
+}
+
+bool MeshView::eventFilter(QObject* watched, QEvent* event) {
+    FrameBehind& behind = parts_->behind;
+    if (watched == behind.held_window && event->type() == QEvent::UpdateRequest) {
+        behind.has_held = true;
+        return true;
+    }
+    return QOpenGLWidget::eventFilter(watched, event);
+}
+
+}  // namespace curvewright
