@@ -15,10 +15,11 @@ namespace curvewright {
 
 namespace {
 
-/// Certifies elements(0) .. elements(count - 1) into the report, whose sign is set.
-template <class ElementAt>
-void certify(QualityReport& report, const MeshTopology& topology, const Coordinates& positions, std::size_t count,
-             const ElementAt& element_at, const QualityOptions& options, const TaskContext& context) {
+/// Certifies element_at(0) .. element_at(count - 1) and calls store(i, quality) for each, on several threads.
+template <class ElementAt, class Store>
+void certify(const MeshTopology& topology, const Coordinates& positions, std::size_t count, const ElementAt& element_at,
+             double sign, const QualityOptions& options, const TaskContext& context, std::string_view phase,
+             const Store& store) {
     if (!(options.tolerance > 0.0))
         throw InvalidInput(
             fmt::format("The tolerance of the scaled Jacobian is {}; it must be positive.", options.tolerance));
@@ -28,7 +29,7 @@ void certify(QualityReport& report, const MeshTopology& topology, const Coordina
         if (dimension(block.type.shape) == topology.dimension())
             most_nodes = std::max(most_nodes, node_count(block.type));
     const auto grain = static_cast<std::size_t>(std::clamp(100000 / (most_nodes * most_nodes), 4, 256));
-    parallel_for(count, grain, context, "Certifying elements", [&](std::size_t begin, std::size_t end) {
+    parallel_for(count, grain, context, phase, [&](std::size_t begin, std::size_t end) {
         std::optional<JacobianBounds> bounds;
         ElementType type;
         Eigen::MatrixX3d x;
@@ -43,7 +44,7 @@ void certify(QualityReport& report, const MeshTopology& topology, const Coordina
             x.resize(static_cast<Eigen::Index>(nodes.size()), 3);
             for (std::size_t k = 0; k < nodes.size(); ++k)
                 x.row(static_cast<Eigen::Index>(k)) = positions.row(nodes[k]);
-            report.elements[static_cast<std::size_t>(element)] = bounds->bound(x, report.orientation_sign, options);
+            store(i, bounds->bound(x, sign, options));
         }
     });
 }
@@ -75,10 +76,22 @@ QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& optio
     report.orientation_sign = options.orientation_sign.value_or(orientation_sign(report.orientation, mesh));
     report.elements.resize(static_cast<std::size_t>(mesh.topology().element_count()));
     certify(
-        report, mesh.topology(), mesh.coordinates(), report.elements.size(),
-        [](std::size_t i) { return static_cast<Index>(i); }, options, context);
+        mesh.topology(), mesh.coordinates(), report.elements.size(),
+        [](std::size_t i) { return static_cast<Index>(i); }, report.orientation_sign, options, context,
+        "Certifying elements", [&](std::size_t i, const ElementQuality& quality) { report.elements[i] = quality; });
     report.summary = summarize(report.elements);
     return report;
+}
+
+std::vector<ElementQuality> certify_elements(const MeshTopology& topology, std::span<const Index> elements,
+                                             const Coordinates& positions, const QualityOptions& options,
+                                             const TaskContext& context) {
+    std::vector<ElementQuality> result(elements.size());
+    certify(
+        topology, positions, elements.size(), [&](std::size_t i) { return elements[i]; },
+        options.orientation_sign.value(), options, context, {},
+        [&](std::size_t i, const ElementQuality& quality) { result[i] = quality; });
+    return result;
 }
 
 void update_quality(QualityReport& report, const MeshTopology& topology, const Coordinates& positions,
@@ -90,7 +103,9 @@ void update_quality(QualityReport& report, const MeshTopology& topology, const C
                         "and {} nodes.",
                         report.elements.size(), positions.rows(), topology.element_count(), topology.node_count()));
     certify(
-        report, topology, positions, elements.size(), [&](std::size_t i) { return elements[i]; }, options, context);
+        topology, positions, elements.size(), [&](std::size_t i) { return elements[i]; }, report.orientation_sign,
+        options, context, "Certifying elements",
+        [&](std::size_t i, const ElementQuality& quality) { report.elements[elements[i]] = quality; });
     report.summary = summarize(report.elements);
 }
 

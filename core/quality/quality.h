@@ -84,6 +84,12 @@ CurvedMesh flip_orientation(const CurvedMesh& mesh);
 QualityReport assess_quality(const CurvedMesh& mesh, const QualityOptions& options = {},
                              const TaskContext& context = {});
 
+/// Certified qualities of some elements at the given positions (nodes × 3). options: orientation_sign must be given.
+/// Multi-threaded. Throws Cancelled.
+std::vector<ElementQuality> certify_elements(const MeshTopology& topology, std::span<const Index> elements,
+                                             const Coordinates& positions, const QualityOptions& options,
+                                             const TaskContext& context = {});
+
 /// Brings a report up to date after some nodes have moved: certifies the given elements at their new positions and
 /// sums up anew. The orientation stays as reported, and J is multiplied with the report's sign whatever the options
 /// say. elements: those that have a node that moved, at least. positions: nodes × 3; 2D meshes keep their z.

@@ -7,20 +7,10 @@
 
 #include "core/deform/deformation.h"
 #include "core/edit/drag.h"
-#include "core/untangle/guaranteed.h"
-#include "core/untangle/signed_angles.h"
-#include "core/untangle/unsigned_angles.h"
+#include "core/untangle/untangle_options.h"
 #include "core/warp/incremental.h"
 
 namespace curvewright {
-
-/// In the order of UntangleOptions' alternatives.
-enum class UntangleMethod { guaranteed, signed_angles, unsigned_angles };
-using UntangleOptions = std::variant<GuaranteedOptions, SignedAngleOptions, UnsignedAngleOptions>;
-
-inline UntangleMethod method_of(const UntangleOptions& options) {
-    return static_cast<UntangleMethod>(options.index());
-}
 
 // What is done to a mesh, as data that can be written, read and done again. Files are named as they were opened.
 

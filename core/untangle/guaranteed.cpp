@@ -216,14 +216,12 @@ class Untangler {
         int untangle() {
             began();
             guard([this] { untangle_rounds(); });
-            ended();
             return round_;
         }
 
         void improve() {
             began();
             guard([this] { improve_to_floor(); });
-            ended();
         }
 
       private:
@@ -233,9 +231,11 @@ class Untangler {
                 work();
             } catch (const Cancelled&) {
                 best_.restore(state_);
+                ended();
                 throw;
             }
             best_.restore(state_);
+            ended();
         }
 
         /// Writes the positions, has them judged and keeps them if they are the best so far.

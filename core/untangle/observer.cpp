@@ -18,4 +18,19 @@ const char* to_string(StopReason reason) {
     return "";
 }
 
+const char* untangle_event::to_string(Placement placement) {
+    return placement == Placement::straightened ? "straightened" : "put back";
+}
+
+untangle_event::NodesPlaced placed_nodes(untangle_event::Placement placement, const Coordinates& before,
+                                         const Coordinates& after) {
+    untangle_event::NodesPlaced placed{placement, {}, {}};
+    for (Eigen::Index node = 0; node < after.rows(); ++node) {
+        if (before.row(node) == after.row(node)) continue;
+        placed.nodes.push_back(static_cast<Index>(node));
+        placed.positions.push_back({after(node, 0), after(node, 1), after(node, 2)});
+    }
+    return placed;
+}
+
 }  // namespace curvewright

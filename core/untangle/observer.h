@@ -29,13 +29,15 @@ struct Started {
 struct PassBegan {
     int pass = 0;  ///< from 1
 };
-/// Some nodes are about to be moved together: a node or the nodes of an edge (angles), or a patch's free nodes.
+/// Some nodes are about to be moved together: a node or the nodes of an edge and then the face nodes of its triangles
+/// (angles), or a patch's free nodes.
 struct PatchBegan {
     std::vector<Index> nodes, elements;
     std::vector<Position> positions;  ///< of the nodes
 };
 /// One iteration of the Nelder-Mead method (signed angles).
 struct SimplexStep {
+    Index node = 0;
     int iteration = 0;
     std::array<std::array<double, 2>, 3> simplex{};  ///< best vertex first
     std::array<double, 3> objective{};               ///< per vertex
@@ -83,7 +85,18 @@ struct FaceNodesMoved {
     std::vector<Index> nodes;
     std::vector<Position> positions;
 };
-/// The state after a pass. A method that put back an earlier, better state did so at the end of its last pass.
+enum class Placement {
+    straightened,  ///< within a patch: an edge begins straight instead of as it is
+    put_back,      ///< to an earlier, better state, at the end of a pass
+};
+const char* to_string(Placement placement);
+/// Nodes were put somewhere.
+struct NodesPlaced {
+    Placement placement = Placement::put_back;
+    std::vector<Index> nodes;
+    std::vector<Position> positions;
+};
+/// The state after a pass. A method that puts back an earlier, better state does so before the end of its last pass.
 struct PassEnded {
     int pass = 0;
     double relative_change = 0.0;  ///< |X_k - X_{k-1}|_F / |X_k|_F
@@ -98,10 +111,15 @@ struct Finished {
 
 }  // namespace untangle_event
 
-using UntangleEvent = std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
-                                   untangle_event::SimplexStep, untangle_event::BfgsStep, untangle_event::EnergyStep,
-                                   untangle_event::PatchCertified, untangle_event::PatchEnded,
-                                   untangle_event::FaceNodesMoved, untangle_event::PassEnded, untangle_event::Finished>;
+using UntangleEvent =
+    std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
+                 untangle_event::SimplexStep, untangle_event::BfgsStep, untangle_event::EnergyStep,
+                 untangle_event::PatchCertified, untangle_event::PatchEnded, untangle_event::FaceNodesMoved,
+                 untangle_event::NodesPlaced, untangle_event::PassEnded, untangle_event::Finished>;
+
+/// The nodes whose positions differ, with those of `after`. For the methods.
+untangle_event::NodesPlaced placed_nodes(untangle_event::Placement placement, const Coordinates& before,
+                                         const Coordinates& after);
 
 /// Is told of every step, on the thread that untangles. The method builds events only if an observer is there.
 class UntangleObserver {

@@ -2,37 +2,10 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
 
-#include "core/base/parallel.h"
-#include "core/quality/jacobian_bounds.h"
 #include "core/quality/shape_quality.h"
 
 namespace curvewright {
-
-std::vector<ElementQuality> certify_elements(const MeshTopology& topology, const std::vector<Index>& elements,
-                                             const Coordinates& x, const QualityOptions& options,
-                                             const TaskContext& context) {
-    std::vector<ElementQuality> result(elements.size());
-    parallel_for(elements.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
-        std::optional<JacobianBounds> bounds;
-        std::optional<ElementType> type;
-        Eigen::MatrixX3d positions;
-        for (std::size_t i = begin; i < end; ++i) {
-            const ElementType own = topology.element_type(elements[i]);
-            if (type != own) {
-                bounds.emplace(own);
-                type = own;
-            }
-            const auto nodes = topology.element_nodes(elements[i]);
-            positions.resize(static_cast<Eigen::Index>(nodes.size()), 3);
-            for (std::size_t n = 0; n < nodes.size(); ++n)
-                positions.row(static_cast<Eigen::Index>(n)) = x.row(nodes[n]);
-            result[i] = bounds->bound(positions, *options.orientation_sign, options);
-        }
-    });
-    return result;
-}
 
 Coordinates positions_of(const std::vector<Index>& nodes, const Coordinates& x) {
     Coordinates result(static_cast<Eigen::Index>(nodes.size()), 3);

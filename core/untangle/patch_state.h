@@ -9,11 +9,6 @@
 
 namespace curvewright {
 
-/// Certified qualities of some elements at the given positions (nodes × 3), with the options' orientation.
-std::vector<ElementQuality> certify_elements(const MeshTopology& topology, const std::vector<Index>& elements,
-                                             const Coordinates& x, const QualityOptions& options,
-                                             const TaskContext& context);
-
 /// The positions of all nodes, the places of the sliding ones on the boundary, and the qualities of all elements:
 /// what untangling changes.
 struct MeshState {

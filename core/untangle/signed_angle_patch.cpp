@@ -17,7 +17,8 @@ double displacement_unit(const EdgeAngles& angles, const SignedAngleOptions& opt
 }
 
 SignedAngleMinimum minimise_signed_angles(const EdgeAngles& angles, const Eigen::Vector2d& initial, double unit,
-                                          double beta, const SignedAngleOptions& options, UntangleObserver* observer) {
+                                          double beta, const SignedAngleOptions& options, UntangleObserver* observer,
+                                          Index node) {
     if (!(unit > 0.0)) return {initial};
     // The unknown is the displacement in units of `unit`: in the length-normalised variant everything below, the
     // tolerance included, is the same whatever the mesh's unit of length.
@@ -35,8 +36,13 @@ SignedAngleMinimum minimise_signed_angles(const EdgeAngles& angles, const Eigen:
     const auto watch = [&](int iteration, const NelderMeadSimplex<2>& simplex) {
         if (!observer) return;
         const Point& best = simplex.vertices[0];
-        event::SimplexStep step{
-            iteration, {}, simplex.values, displacement_term(best), angle_term(best), angles.evaluate(position(best))};
+        event::SimplexStep step{node,
+                                iteration,
+                                {},
+                                simplex.values,
+                                displacement_term(best),
+                                angle_term(best),
+                                angles.evaluate(position(best))};
         for (int i = 0; i < 3; ++i) {
             const Eigen::Vector2d vertex = position(simplex.vertices[i]);
             step.simplex[i] = {vertex[0], vertex[1]};

@@ -18,9 +18,10 @@ struct SignedAngleMinimum {
 
 /// Minimises (4.1) over one node of an edge by Nelder-Mead. unit: length in which the node's displacement is measured:
 /// 1, or the edge's length for the length-normalised variant. initial: where the node is; it stays there if the edge
-/// has no length. Tells the observer, if there is one, every simplex.
+/// has no length. Tells the observer, if there is one, every simplex; node: its index, for the observer.
 SignedAngleMinimum minimise_signed_angles(const EdgeAngles& angles, const Eigen::Vector2d& initial, double unit,
-                                          double beta, const SignedAngleOptions& options, UntangleObserver* observer);
+                                          double beta, const SignedAngleOptions& options, UntangleObserver* observer,
+                                          Index node);
 
 /// Length in which displacements of an edge's nodes are measured.
 double displacement_unit(const EdgeAngles& angles, const SignedAngleOptions& options);

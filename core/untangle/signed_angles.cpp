@@ -61,6 +61,7 @@ class SignedAngleUntangler {
             if (needs_quality) {
                 const QualityReport after = assess_quality(mesh_.with_coordinates(x_), {}, context_);
                 if (options_.reject_worse_pass && is_worse(after.summary, quality.summary)) {
+                    if (observer_) tell(placed_nodes(event::Placement::put_back, x_, before));
                     x_ = before;
                     result.reason = StopReason::no_progress;
                 } else {
@@ -108,7 +109,7 @@ class SignedAngleUntangler {
         const EdgeAngles angles(topology_, x_, edge_node, sign_);
         const SignedAngleMinimum minimum =
             minimise_signed_angles(angles, x_.row(edge_node.node).head<2>(), displacement_unit(angles, options_),
-                                   options_.beta, options_, observer_);
+                                   options_.beta, options_, observer_, edge_node.node);
         x_.row(edge_node.node).head<2>() = minimum.position;
         return minimum;
     }

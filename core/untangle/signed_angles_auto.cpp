@@ -67,6 +67,7 @@ class AutomaticUntangler {
                 best = state;
                 result.coordinates = x_;
             } else if (pass == options_.max_passes || result.reason != StopReason::pass_limit) {
+                if (observer_) tell(placed_nodes(event::Placement::put_back, x_, result.coordinates));
                 x_ = result.coordinates;
                 state = best;
             }
@@ -177,13 +178,13 @@ class AutomaticUntangler {
 
     /// Iterations and objective, summed over the nodes.
     SignedAngleMinimum move(const EdgeNodes& edge, const Trial& trial, UntangleObserver* observer) {
-        if (trial.straightens) straighten(edge);
+        if (trial.straightens) straighten(edge, observer);
         SignedAngleMinimum total;
         for (const EdgeNode& node : edge) {
             const EdgeAngles angles(topology_, x_, node, sign_);
             const SignedAngleMinimum minimum =
                 minimise_signed_angles(angles, x_.row(node.node).head<2>(), displacement_unit(angles, options_),
-                                       trial.beta(), options_, observer);
+                                       trial.beta(), options_, observer, node.node);
             x_.row(node.node).head<2>() = minimum.position;
             total.iterations += minimum.iterations;
             total.objective_before += minimum.objective_before;
@@ -193,12 +194,19 @@ class AutomaticUntangler {
         return total;
     }
 
-    void straighten(const EdgeNodes& edge) {
+    void straighten(const EdgeNodes& edge, UntangleObserver* observer) {
         const auto nodes = topology_.element_nodes(edge[0].triangles[0]);
         const int local = edge[0].local_edges[0];
         const Eigen::RowVector2d a = x_.row(nodes[local]).head<2>(), b = x_.row(nodes[(local + 1) % 3]).head<2>();
         for (const EdgeNode& node : edge)
             x_.row(node.node).head<2>() = a + (b - a) * ((node.position - 1.0) / topology_.order());
+        if (!observer) return;
+        event::NodesPlaced placed{event::Placement::straightened, {}, {}};
+        for (const EdgeNode& node : edge) {
+            placed.nodes.push_back(node.node);
+            placed.positions.push_back(position_of(x_, node.node));
+        }
+        tell(std::move(placed));
     }
 
     /// Moves the edge by the trial, or leaves it where it is, and tells the observer.

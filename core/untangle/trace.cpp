@@ -25,8 +25,18 @@ struct Describe {
         return tags;
     }
 
-    Json operator()(const event::Started&) const {
-        return {{"event", "started"}, {"elements", topology.element_count()}, {"nodes", topology.node_count()}};
+    Json operator()(const event::Started& e) const {
+        Json tags = Json::array(), positions = Json::array();
+        const Coordinates& x = e.mesh->coordinates();
+        for (Index node = 0; node < topology.node_count(); ++node) {
+            tags.push_back(topology.node_tag(node).value);
+            positions.push_back({x(node, 0), x(node, 1), x(node, 2)});
+        }
+        return {{"event", "started"},
+                {"elements", topology.element_count()},
+                {"nodes", topology.node_count()},
+                {"tags", std::move(tags)},
+                {"positions", std::move(positions)}};
     }
     Json operator()(const event::PassBegan& e) const { return {{"event", "pass_began"}, {"pass", e.pass}}; }
     Json operator()(const event::PatchBegan& e) const {
@@ -36,13 +46,10 @@ struct Describe {
                 {"positions", e.positions}};
     }
     Json operator()(const event::SimplexStep& e) const {
-        return {{"event", "simplex_step"},
-                {"iteration", e.iteration},
-                {"simplex", e.simplex},
-                {"objective", e.objective},
-                {"displacement_term", e.displacement_term},
-                {"angle_term", e.angle_term},
-                {"angles", e.angles}};
+        return {{"event", "simplex_step"},    {"node", topology.node_tag(e.node).value},
+                {"iteration", e.iteration},   {"simplex", e.simplex},
+                {"objective", e.objective},   {"displacement_term", e.displacement_term},
+                {"angle_term", e.angle_term}, {"angles", e.angles}};
     }
     Json operator()(const event::BfgsStep& e) const {
         return {{"event", "bfgs_step"},     {"iteration", e.iteration},         {"positions", e.positions},
@@ -81,6 +88,12 @@ struct Describe {
     }
     Json operator()(const event::FaceNodesMoved& e) const {
         return {{"event", "face_nodes_moved"}, {"nodes", nodes(e.nodes)}, {"positions", e.positions}};
+    }
+    Json operator()(const event::NodesPlaced& e) const {
+        return {{"event", "nodes_placed"},
+                {"placement", to_string(e.placement)},
+                {"nodes", nodes(e.nodes)},
+                {"positions", e.positions}};
     }
     Json operator()(const event::PassEnded& e) const {
         return {{"event", "pass_ended"},

@@ -8,6 +8,7 @@
 namespace curvewright {
 
 /// Writes every event as one line of JSON: {"event": NAME, …}. Nodes and elements are named by their tags of the file.
+/// The first line has the positions at the start, so that the mesh and the trace are all there is to know of a run.
 class TraceWriter : public UntangleObserver {
   public:
     /// The stream must live as long as the writer.

@@ -69,6 +69,7 @@ class UnsignedAngleUntangler {
         UntangleResult result;
         result.reason = has_work() ? StopReason::pass_limit : end_reason();
         Coordinates best = x_;
+        std::vector<ElementQuality> best_qualities = qualities_;
         Standing best_standing(qualities_);
         int fruitless = 0;  // passes in turn that did not lead to a better mesh
         Moves moves = options_.is_guarded ? Moves::gains : Moves::all;
@@ -77,11 +78,11 @@ class UnsignedAngleUntangler {
             tell(event::PassBegan{++result.passes});
             move_edges(result.passes, moves);
             const double change = (x_ - before).norm() / x_.norm();
-            if (observer_) tell_pass_ended(result.passes, change);
             const Standing standing(qualities_);
             const bool is_better = standing.is_better_than(best_standing);
             if (is_better) {
                 best = x_;
+                best_qualities = qualities_;
                 best_standing = standing;
             }
             fruitless = is_better ? 0 : fruitless + 1;
@@ -90,8 +91,14 @@ class UnsignedAngleUntangler {
                 result.reason = end_reason();
             else if (options_.is_guarded)
                 moves = change == 0.0 ? Moves::all : Moves::gains;
+            const bool is_last = result.reason != StopReason::pass_limit || result.passes == options_.max_passes;
+            if (is_last && options_.is_guarded) {
+                if (observer_) tell_put_back(best);
+                x_ = best;
+                qualities_ = best_qualities;
+            }
+            if (observer_) tell_pass_ended(result.passes, change);
         }
-        if (options_.is_guarded) x_ = best;
         tell(event::Finished{result.reason, result.passes});
         result.coordinates = std::move(x_);
         return result;
@@ -103,6 +110,10 @@ class UnsignedAngleUntangler {
         if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
+    void tell_put_back(const Coordinates& best) {
+        event::NodesPlaced placed = placed_nodes(event::Placement::put_back, x_, best);
+        if (!placed.nodes.empty()) tell(std::move(placed));
+    }
     void tell_pass_ended(int pass, double change) {
         event::PassEnded ended{pass, change, 1.0, 0, 0, &x_};
         for (const ElementQuality& quality : qualities_) {
@@ -147,13 +158,22 @@ class UnsignedAngleUntangler {
         }
     }
 
-    std::vector<event::Position> positions(const InteriorEdge& edge) const {
+    /// The nodes that move with an edge: its own, then the face nodes of its triangles.
+    std::vector<Index> nodes_of(const InteriorEdge& edge) const {
+        std::vector<Index> nodes = edge.nodes;
+        if (face_placements_.empty()) return nodes;
+        for (const Index triangle : edge.triangles)
+            for (const int local : face_placements_[0].local_nodes())
+                nodes.push_back(topology_.element_nodes(triangle)[local]);
+        return nodes;
+    }
+    std::vector<event::Position> positions(const std::vector<Index>& nodes) const {
         std::vector<event::Position> result;
-        for (const Index node : edge.nodes) result.push_back({x_(node, 0), x_(node, 1), x_(node, 2)});
+        for (const Index node : nodes) result.push_back({x_(node, 0), x_(node, 1), x_(node, 2)});
         return result;
     }
     std::vector<event::Position> positions(const InteriorEdge& edge, const Eigen::VectorXd& variables) const {
-        std::vector<event::Position> result = positions(edge);
+        std::vector<event::Position> result = positions(edge.nodes);
         for (std::size_t i = 0; i < result.size(); ++i)
             for (std::size_t d = 0; d < 2; ++d) result[i][d] = variables[static_cast<Eigen::Index>(2 * i + d)];
         return result;
@@ -249,8 +269,9 @@ class UnsignedAngleUntangler {
         if (options_.tries_straight_edge) starts.push_back(straight_variables(edge));
         event::PatchEnded ended;
         if (observer_) {
-            tell(event::PatchBegan{edge.nodes, {edge.triangles.begin(), edge.triangles.end()}, positions(edge)});
-            ended.nodes = edge.nodes;
+            ended.nodes = nodes_of(edge);
+            tell(
+                event::PatchBegan{ended.nodes, {edge.triangles.begin(), edge.triangles.end()}, positions(ended.nodes)});
             ended.objective_before = sum.evaluate(starts[0]);
             ended.min_scaled_jacobian_before = patch_minimum(edge);
         }
@@ -275,7 +296,7 @@ class UnsignedAngleUntangler {
             }
         restore(edge, best);
         if (observer_) {
-            ended.positions = positions(edge);
+            ended.positions = positions(ended.nodes);
             ended.objective_after = sum.evaluate(present_variables(edge));
             ended.min_scaled_jacobian_after = patch_minimum(edge);
             tell(std::move(ended));

@@ -31,6 +31,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"core/optimize", {"core/base"}},
     {"core/untangle", {"core/base", "core/basis", "core/mesh", "core/boundary", "core/quality", "core/optimize"}},
     {"core/io", {"core/base", "core/basis", "core/mesh", "core/quality", "core/deform"}},
+    {"core/timeline", {"core/base", "core/mesh", "core/quality", "core/untangle"}},
     {"core/session",
      {"core/base", "core/mesh", "core/boundary", "core/quality", "core/deform", "core/warp", "core/edit",
       "core/untangle", "core/io"}},

@@ -95,7 +95,7 @@ TEST(MinimiseSignedAngles, AnEdgeOfNoLengthStays) {
     const auto nodes = find_interior_edge_nodes(mesh.topology());
     const EdgeAngles angles(mesh.topology(), mesh.coordinates(), nodes[0], 1.0);
     const Eigen::Vector2d initial(0.25, 0.75);
-    EXPECT_EQ(minimise_signed_angles(angles, initial, 0.0, 0.5, {}, nullptr).position, initial);
+    EXPECT_EQ(minimise_signed_angles(angles, initial, 0.0, 0.5, {}, nullptr, 0).position, initial);
 }
 
 }  // namespace
