@@ -84,6 +84,7 @@ class Recording {
   private:
     friend class Recorder;
     friend class TimelineCursor;
+    friend class StepExplainer;
 
     /// A step after which the mesh is another one: what it changed can be done and undone.
     struct Commit {

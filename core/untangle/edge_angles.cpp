@@ -68,6 +68,25 @@ std::vector<InteriorEdge> find_interior_edges(const MeshTopology& topology) {
     return found;
 }
 
+std::optional<InteriorEdge> find_interior_edge(const MeshTopology& topology, std::array<Index, 2> triangles,
+                                               Index node) {
+    std::sort(triangles.begin(), triangles.end());
+    InteriorEdge edge{triangles, {-1, -1}, {}};
+    for (int side = 0; side < 2; ++side) {
+        const auto nodes = topology.element_nodes(triangles[side]);
+        const auto& edges = reference_element(topology.element_type(triangles[side])).edges;
+        for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
+            std::vector<Index> inner;
+            for (std::size_t i = 2; i < edges[e].nodes.size(); ++i) inner.push_back(nodes[edges[e].nodes[i]]);
+            if (std::find(inner.begin(), inner.end(), node) == inner.end()) continue;
+            edge.local_edges[side] = e;
+            if (side == 0) edge.nodes = std::move(inner);
+        }
+        if (edge.local_edges[side] < 0) return std::nullopt;
+    }
+    return edge;
+}
+
 std::vector<EdgeNode> find_interior_edge_nodes(const MeshTopology& topology) {
     std::vector<EdgeNode> result;
     for (const InteriorEdge& edge : find_interior_edges(topology))

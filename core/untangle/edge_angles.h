@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,6 +20,11 @@ struct InteriorEdge {
 /// All interior edges that have high-order nodes, in ascending order of their first triangle and its local edges.
 /// Throws Unsupported if an edge belongs to more than two triangles.
 std::vector<InteriorEdge> find_interior_edges(const MeshTopology& topology);
+
+/// The interior edge with a given high-order node, between two triangles in any order. None if the node is on no edge
+/// that the two share.
+std::optional<InteriorEdge> find_interior_edge(const MeshTopology& topology, std::array<Index, 2> triangles,
+                                               Index node);
 
 /// A high-order node on an interior edge of a 2D mesh of triangles.
 struct EdgeNode {
