@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <vector>
 
 namespace curvewright {
@@ -19,6 +20,14 @@ enum class MarkRole {
     spoke,          ///< from a node to a neighbour: its share is the weight
     rubber,         ///< the outline of a box or lasso, in pixels
     ghost,          ///< where something was
+    angle,          ///< the arc of an angle
+    tangled_angle,  ///< the arc of a negative one
+    tangent,        ///< a tangent at the end of a curved edge
+    simplex,        ///< of the Nelder-Mead method
+    path,           ///< a node's way
+    contour,        ///< a line of equal height: its share is the height, 0 .. 1
+    outcome,        ///< where another parameter would lead
+    worst,          ///< where the Jacobian is least
 };
 
 struct MarkPoint {
@@ -34,11 +43,19 @@ struct MarkLine {
     double share = 1.0;  ///< spoke: -1 .. 1
 };
 
+/// A short text of constant size, in the middle of its place.
+struct MarkText {
+    std::array<double, 3> at{};  ///< mesh coordinates
+    std::string text;
+    MarkRole role = MarkRole::angle;
+};
+
 /// What tools draw over the mesh.
 struct Marks {
     std::vector<MarkPoint> points;
     std::vector<MarkLine> lines;
-    bool is_empty() const { return points.empty() && lines.empty(); }
+    std::vector<MarkText> texts;
+    bool is_empty() const { return points.empty() && lines.empty() && texts.empty(); }
 };
 
 }  // namespace curvewright

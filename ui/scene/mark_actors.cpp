@@ -12,8 +12,14 @@ namespace {
 constexpr double small_diameter = 7.5, large_diameter = 11.0, pin_diameter = 9.0;
 
 bool is_large(MarkRole role) {
-    return role == MarkRole::hovered || role == MarkRole::active_handle || role == MarkRole::handle ||
-           role == MarkRole::axis_x || role == MarkRole::axis_y || role == MarkRole::axis_z;
+    return role == MarkRole::hovered || role == MarkRole::outcome || role == MarkRole::worst ||
+           role == MarkRole::active_handle || role == MarkRole::handle || role == MarkRole::axis_x ||
+           role == MarkRole::axis_y || role == MarkRole::axis_z;
+}
+
+bool is_thin(MarkRole role) {
+    return role == MarkRole::spoke || role == MarkRole::ghost || role == MarkRole::tangent ||
+           role == MarkRole::contour || role == MarkRole::path;
 }
 
 Color mix(const Color& a, const Color& b, double t) {
@@ -24,7 +30,12 @@ Color mix(const Color& a, const Color& b, double t) {
 
 }  // namespace
 
-MarkActors::MarkActors(vtkRenderer* renderer) {
+MarkActors::Text::Text(vtkRenderer* renderer)
+    : halo{OverlayText(renderer), OverlayText(renderer), OverlayText(renderer), OverlayText(renderer),
+           OverlayText(renderer), OverlayText(renderer), OverlayText(renderer), OverlayText(renderer)},
+      text(renderer) {}
+
+MarkActors::MarkActors(vtkRenderer* renderer) : renderer_(renderer) {
     for (vtkActor* actor : {halo_.actor(), lines_.actor(), thin_lines_.actor(), small_.actor(), pins_.actor(),
                             large_.actor(), rubber_halo_.actor(), rubber_.actor()})
         renderer->AddActor(actor);
@@ -64,6 +75,19 @@ Color MarkActors::color_of(MarkRole role, double share) const {
             return share < 0.0 ? Color{0.78, 0.20, 0.36} : mix(ground_, accent_, 0.25 + 0.75 * std::min(share, 1.0));
         case MarkRole::ghost:
             return mix(ground_, ink_, 0.45);
+        case MarkRole::angle:
+        case MarkRole::simplex:
+            return accent_;
+        case MarkRole::tangled_angle:
+        case MarkRole::worst:
+            return tangled_color();
+        case MarkRole::tangent:
+        case MarkRole::path:
+            return ink_;
+        case MarkRole::contour:
+            return mix(ink_, accent_, 0.35 + 0.65 * std::clamp(share, 0.0, 1.0));
+        case MarkRole::outcome:
+            return {0.96, 0.66, 0.10};
         default:
             return accent_;
     }
@@ -99,8 +123,7 @@ void MarkActors::draw() {
     Polylines thick, thin, rubber;
     for (const MarkLine& line : marks_.lines) {
         const bool is_rubber = line.role == MarkRole::rubber;
-        Polylines& set =
-            is_rubber ? rubber : (line.role == MarkRole::spoke || line.role == MarkRole::ghost ? thin : thick);
+        Polylines& set = is_rubber ? rubber : (is_thin(line.role) ? thin : thick);
         std::vector<std::array<double, 3>> points = line.points;
         if (!is_rubber)
             for (auto& point : points)
@@ -120,7 +143,35 @@ void MarkActors::draw() {
     rubber_.set_lines(rubber, 1.0);
 }
 
+void MarkActors::place_texts(const ViewMetrics& view) {
+    while (texts_.size() < marks_.texts.size()) texts_.push_back(std::make_unique<Text>(renderer_));
+    for (std::size_t i = 0; i < texts_.size(); ++i) {
+        Text& place = *texts_[i];
+        const bool is_wanted = i < marks_.texts.size();
+        Eigen::Vector4d at = Eigen::Vector4d::Zero();
+        if (is_wanted) {
+            const auto& point = marks_.texts[i].at;
+            at = view.project(frame_.to_world({point[0], point[1], point[2]}));
+        }
+        if (!is_wanted || !(at[3] > 0.0)) {
+            place.text.hide();
+            for (OverlayText& halo : place.halo) halo.hide();
+            continue;
+        }
+        const MarkText& mark = marks_.texts[i];
+        const double size = 13.0 * view.pixel_ratio, rim = 1.3 * view.pixel_ratio;
+        for (std::size_t k = 0; k < place.halo.size(); ++k) {
+            const double angle = 0.25 * 3.14159265358979 * static_cast<double>(k);
+            place.halo[k].show(mark.text, at[0] + rim * std::cos(angle), at[1] + rim * std::sin(angle), size, ground_,
+                               TextAnchor::center, true);
+        }
+        place.text.show(mark.text, at[0], at[1], size, mark.role == MarkRole::angle ? ink_ : color_of(mark.role, 1.0),
+                        TextAnchor::center, true);
+    }
+}
+
 void MarkActors::update(const ViewMetrics& view) {
+    place_texts(view);
     for (StrokeActor* stroke : {&halo_, &lines_, &thin_lines_, &rubber_halo_, &rubber_}) stroke->update(view);
     small_.set_diameter(small_diameter * view.pixel_ratio);
     large_.set_diameter(large_diameter * view.pixel_ratio);

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <memory>
+
 #include "ui/palette/marks.h"
+#include "ui/scene/overlay_text.h"
 #include "ui/scene/point_actor.h"
 #include "ui/scene/stroke_actor.h"
 
@@ -8,7 +11,8 @@ class vtkRenderer;
 
 namespace curvewright {
 
-/// What tools draw over the mesh: nodes that are hovered, selected, softly selected or pinned; handles; rubber bands.
+/// What tools draw over the mesh: nodes that are hovered, selected, softly selected or pinned; handles; rubber bands;
+/// what explains a step of an untangling.
 class MarkActors {
   public:
     explicit MarkActors(vtkRenderer* renderer);
@@ -26,8 +30,18 @@ class MarkActors {
   private:
     Color color_of(MarkRole role, double share) const;
     void draw();
+    void place_texts(const ViewMetrics& view);
 
+    /// A text with a halo of the ground's colour: it is written eight times around before it is written.
+    struct Text {
+        explicit Text(vtkRenderer* renderer);
+        std::vector<OverlayText> halo;
+        OverlayText text;
+    };
+
+    vtkRenderer* renderer_;
     Marks marks_;
+    std::vector<std::unique_ptr<Text>> texts_;
     WorldFrame frame_;
     Color ground_{1.0, 1.0, 1.0}, accent_{0.1, 0.4, 0.9}, ink_{0.1, 0.1, 0.1};
     PointActor small_, large_, pins_;
