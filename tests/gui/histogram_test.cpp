@@ -455,6 +455,14 @@ class HistogramTest : public QObject {
         test.filter_answer = QStringLiteral("*.svg");
         test.click("export_histogram");
         QVERIFY(QSvgRenderer(test.folder.filePath(QStringLiteral("plain.svg"))).isValid());
+        // Nor where the suggested name was left as it is; what is there already stays.
+        for (const char* name : {"square-quality.svg", "square-quality-2.svg"}) {
+            test.file_answer = test.folder.filePath(QStringLiteral("square-quality.csv"));
+            test.click("export_histogram");
+            QVERIFY2(QSvgRenderer(test.folder.filePath(QLatin1String(name))).isValid(), name);
+        }
+        QVERIFY(!QFile::exists(test.file_answer));
+        QVERIFY(test.errors.isEmpty());
     }
 
     void what_cannot_be_written_is_told_in_one_sentence() {

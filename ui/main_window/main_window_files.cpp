@@ -244,8 +244,8 @@ void MainWindow::ask_export_quality() {
     if (!document_.state().quality) return;
     const QStringList filters{tr("Table of bars and figures (*.csv)"), tr("Drawing (*.svg)"), tr("Picture (*.png)")};
     const QStringList suffixes{QStringLiteral("csv"), QStringLiteral("svg"), QStringLiteral("png")};
-    const QString suggestion =
-        QDir(last_folder()).filePath(QFileInfo(document_.file_name()).completeBaseName() + tr("-quality.csv"));
+    QString suggestion = suggested_path(suffixes[0]);
+    suggestion.replace(suggestion.lastIndexOf(QStringLiteral("-curved.")), 8, QStringLiteral("-quality."));
     QString selected = filters[0];
     QString path =
         dialogs_.save_file(this, tr("Export the histogram"), suggestion, filters.join(QStringLiteral(";;")), selected);
