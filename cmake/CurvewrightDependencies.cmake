@@ -8,6 +8,7 @@ find_package(nlohmann_json 3.10 REQUIRED)
 find_package(CLI11 2.0 REQUIRED)
 find_package(muparser REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(WebP REQUIRED)
 find_package(Threads REQUIRED)
 
 if(CURVEWRIGHT_BUILD_DESKTOP)

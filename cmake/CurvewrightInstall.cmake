@@ -22,7 +22,7 @@ configure_package_config_file(cmake/CurvewrightConfig.cmake.in ${PROJECT_BINARY_
     INSTALL_DESTINATION ${package_folder} NO_SET_AND_CHECK_MACRO NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/CurvewrightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/CurvewrightConfig.cmake ${PROJECT_BINARY_DIR}/CurvewrightConfigVersion.cmake
-              cmake/FindMETIS.cmake
+              cmake/FindMETIS.cmake cmake/FindWebP.cmake
         DESTINATION ${package_folder} COMPONENT library)
 
 install(TARGETS curvewright-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)

@@ -1,3 +1,4 @@
+#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>
@@ -6,6 +7,7 @@
 #include "app/cli/output.h"
 #include "app/cli/warp_options.h"
 #include "core/base/error.h"
+#include "core/io/animation_file.h"
 #include "core/io/deformation_file.h"
 #include "core/session/frames.h"
 #include "ui/scene/offscreen.h"
@@ -14,10 +16,13 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, deformation, folder;
+    std::filesystem::path mesh, deformation;
+    std::filesystem::path output;  ///< folder for pictures, or an animation's file
     int frames = 60;
     int width = 1920, height = 1080;
     bool goes_back = false, shows_legend = true, is_transparent = false;
+    double frames_per_second = 30., quality = 90.;  ///< of an animation
+    bool is_lossless = false;
     WarpOptions warp;
 };
 
@@ -34,7 +39,58 @@ std::string parse_size(const std::string& text, Options& options) {
 }
 
 std::filesystem::path file_of(const Options& options, int number) {
-    return options.folder / fmt::format("{}-{:04}.png", options.mesh.stem().string(), number);
+    return options.output / fmt::format("{}-{:04}.png", options.mesh.stem().string(), number);
+}
+
+/// Puts a frame into the scene. The view is fitted to the first one and stays where it is.
+void show(MeshScene& scene, FrameSource& film, int index, int number, int count, double& least,
+          const TaskContext& context) {
+    context.report(fmt::format("Frame {} of {}", number + 1, count), static_cast<double>(number) / count);
+    const Frame frame = film.make(index, {context.stop, {}});
+    scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
+    if (frame.quality) least = std::min(least, frame.quality->summary.min);
+}
+
+PictureGround ground_of(const Options& options) {
+    return options.is_transparent ? PictureGround::transparent : PictureGround::background;
+}
+
+void write_pictures(const Options& options, MeshScene& scene, FrameSource& film, int pictures, double& least,
+                    const TaskContext& context) {
+    std::error_code error;
+    std::filesystem::create_directories(options.output, error);
+    if (error)
+        throw InvalidInput(options.output.string(), 0, fmt::format("the folder cannot be made ({}).", error.message()));
+    std::vector<std::filesystem::path> written;
+    try {
+        for (int index = 0; index < options.frames; ++index) {
+            show(scene, film, index, index, options.frames, least, context);
+            written.push_back(file_of(options, index + 1));
+            render_png(scene, options.width, options.height, written.back(), ground_of(options));
+            if (!options.goes_back || index == 0 || index == options.frames - 1) continue;
+            // The way back shows the same.
+            written.push_back(file_of(options, pictures - index + 1));
+            std::filesystem::copy_file(file_of(options, index + 1), written.back(),
+                                       std::filesystem::copy_options::overwrite_existing);
+        }
+    } catch (...) {
+        // A command that does not succeed leaves nothing.
+        for (const std::filesystem::path& file : written) std::filesystem::remove(file, error);
+        throw;
+    }
+}
+
+/// Returns the size of the file. The way back is drawn once more, so that one frame is kept, not all of them.
+std::uintmax_t write_animation(const Options& options, MeshScene& scene, FrameSource& film, int pictures, double& least,
+                               const TaskContext& context) {
+    AnimationFile file(options.output, {options.width, options.height, options.frames_per_second, options.is_lossless,
+                                        options.quality});
+    for (int number = 0; number < pictures; ++number) {
+        show(scene, film, there_and_back(number, options.frames), number, pictures, least, context);
+        file.add(rgba_from_top(render_pixels(scene, options.width, options.height, ground_of(options))),
+                 {context.stop, {}});
+    }
+    return file.finish({context.stop, {}});
 }
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
@@ -50,68 +106,64 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
         mesh.with_coordinates(warp(mesh, apply_deformation(mesh, *deformation), warp_options, context).coordinates);
     MotionFrames film(end, sign, {{"Warp", mesh.coordinates(), end.coordinates(), deformation, options.warp}},
                       options.frames);
-    std::error_code error;
-    std::filesystem::create_directories(options.folder, error);
-    if (error)
-        throw InvalidInput(options.folder.string(), 0, fmt::format("the folder cannot be made ({}).", error.message()));
-
     MeshScene scene;
     SceneOptions scene_options;
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     scene_options.show_legend = options.shows_legend;
     scene.set_options(scene_options);
     const int pictures = options.goes_back ? 2 * (options.frames - 1) : options.frames;
-    const PictureGround ground = options.is_transparent ? PictureGround::transparent : PictureGround::background;
+    const bool is_animation = AnimationFile::is_animation(options.output);
     double least = 1.0;
-    std::vector<std::filesystem::path> written;
-    try {
-        for (int index = 0; index < options.frames; ++index) {
-            context.report(fmt::format("Frame {} of {}", index + 1, options.frames),
-                           static_cast<double>(index) / options.frames);
-            const Frame frame = film.make(index, {context.stop, {}});
-            // The view is fitted to the first picture and stays where it is.
-            scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
-            if (frame.quality) least = std::min(least, frame.quality->summary.min);
-            written.push_back(file_of(options, index + 1));
-            render_png(scene, options.width, options.height, written.back(), ground);
-            if (!options.goes_back || index == 0 || index == options.frames - 1) continue;
-            // The way back shows the same.
-            written.push_back(file_of(options, pictures - index + 1));
-            std::filesystem::copy_file(file_of(options, index + 1), written.back(),
-                                       std::filesystem::copy_options::overwrite_existing);
-        }
-    } catch (...) {
-        // A command that does not succeed leaves nothing.
-        for (const std::filesystem::path& file : written) std::filesystem::remove(file, error);
-        throw;
-    }
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"mesh", mesh_json(options.mesh, mesh)},
-                    {"pictures",
-                     {{"folder", options.folder.string()},
-                      {"first", file_of(options, 1).filename().string()},
-                      {"count", pictures},
-                      {"width", options.width},
-                      {"height", options.height}}},
-                    {"min_on_the_way", sign ? Json(least) : Json()},
-                    {"timings", timings}});
+    std::uintmax_t bytes = 0;
+    if (is_animation)
+        bytes = write_animation(options, scene, film, pictures, least, context);
     else
+        write_pictures(options, scene, film, pictures, least, context);
+    finish_timings(timings, watch);
+    const double seconds = pictures / options.frames_per_second;
+    if (invocation.common.json) {
+        Json result = {{"mesh", mesh_json(options.mesh, mesh)},
+                       {"min_on_the_way", sign ? Json(least) : Json()},
+                       {"timings", timings}};
+        if (is_animation)
+            result["animation"] = {{"file", options.output.string()},
+                                   {"count", pictures},
+                                   {"width", options.width},
+                                   {"height", options.height},
+                                   {"frames_per_second", options.frames_per_second},
+                                   {"seconds", seconds},
+                                   {"lossless", options.is_lossless},
+                                   {"bytes", bytes}};
+        else
+            result["pictures"] = {{"folder", options.output.string()},
+                                  {"first", file_of(options, 1).filename().string()},
+                                  {"count", pictures},
+                                  {"width", options.width},
+                                  {"height", options.height}};
+        print_json(result);
+    } else if (is_animation) {
+        fmt::print("{} pictures of {} x {} pixels, {:.2f} s, {:.0f} kB: {}\n", pictures, options.width, options.height,
+                   seconds, std::ceil(static_cast<double>(bytes) / 1000.), options.output.string());
+    } else {
         fmt::print("{} pictures of {} x {} pixels, {} to {}\n", pictures, options.width, options.height,
                    file_of(options, 1).string(), file_of(options, pictures).filename().string());
+    }
     return exit_done;
 }
 
 }  // namespace
 
 void add_animate(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "animate", "Pictures of a warp on its way, for a video");
+    auto* command = add_command(app, invocation, "animate", "Pictures or an animation of a warp on its way");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh, "MESH");
     add_deformation_option(*command, options->deformation);
-    command->add_option("-o,--output", options->folder, "Folder for the pictures, MESH-0001.png and so on")
+    command
+        ->add_option("-o,--output", options->output,
+                     "Folder for the pictures, MESH-0001.png and so on; or a file that ends in .webp for an animation "
+                     "that browsers play in a loop")
         ->required()
-        ->type_name("FOLDER");
+        ->type_name("FOLDER|FILE.webp");
     command->add_option("--frames", options->frames, "Pictures from the start to the end")
         ->type_name("N")
         ->check(CLI::Range(2, 9999))
@@ -123,6 +175,21 @@ void add_animate(CLI::App& app, Invocation& invocation) {
     command->add_flag("--transparent", options->is_transparent, "No ground: what is not the mesh is transparent");
     command->add_flag_function(
         "--no-legend", [options](std::int64_t) { options->shows_legend = false; }, "Leave out the legend");
+    command->add_option("--fps", options->frames_per_second, "Animation: pictures per second")
+        ->type_name("N")
+        ->check(CLI::Range(0.1, AnimationFile::max_rate))
+        ->capture_default_str();
+    command->add_option("--quality", options->quality, "Animation: from 0, small, to 100, fine")
+        ->type_name("Q")
+        ->check(CLI::Range(0., 100.))
+        ->capture_default_str();
+    command->add_flag("--lossless", options->is_lossless, "Animation: every pixel as it was drawn")
+        ->excludes("--quality");
+    command->parse_complete_callback([command, options] {
+        if (AnimationFile::is_animation(options->output)) return;
+        for (const char* name : {"--fps", "--quality", "--lossless"})
+            if (command->count(name) > 0) throw CLI::ValidationError(name, "is for an output that ends in .webp");
+    });
     add_weight_options(*command, options->warp);
     set_action(*command, invocation, options, run);
 }

@@ -188,12 +188,30 @@ class DocumentTest : public QObject {
         report.elements[2].validity = Validity::valid;
         report.elements[3].scaled_jacobian = 0.99;
         report.elements[3].validity = Validity::undecided;
-        const HistogramBars bars = make_bars(report);
-        QCOMPARE(bars.tangled.decided, std::vector<Index>{0});
-        QCOMPARE(bars.bars.front().decided, std::vector<Index>{1});
-        QCOMPARE(bars.bars.back().decided, std::vector<Index>{2});
-        QCOMPARE(bars.bars.back().undecided, std::vector<Index>{3});
+        HistogramBars bars = make_bars(report.elements);
+        QCOMPARE(bars.tangled.decided, 1);
+        QCOMPARE(bars.bars.front().decided, 1);
+        QCOMPARE(bars.bars.back().decided, 1);
+        QCOMPARE(bars.bars.back().undecided, 1);
         QCOMPARE(bars.highest(), 2);
+        const int last = HistogramBars::bins - 1;
+        QCOMPARE(bars.elements_in(-1, -1), IndexSet{0});
+        QCOMPARE(bars.elements_in(-1, 0), (IndexSet{0, 1}));
+        QCOMPARE(bars.elements_in(last, last), (IndexSet{2, 3}));
+        QCOMPARE(bars.elements_in(1, last - 1), IndexSet());
+        bars.mark({0, 3, 17});
+        QCOMPARE(bars.tangled.selected, 1);
+        QCOMPARE(bars.bars.front().selected, 0);
+        QCOMPARE(bars.bars.back().selected, 1);
+        bars.mark({});
+        QCOMPARE(bars.tangled.selected, 0);
+        const QualitySummary some = summary_of(report.elements, IndexSet{1, 2, 17});
+        QCOMPARE(some.elements(), 2);
+        QCOMPARE(some.min, 0.01);
+        QCOMPARE(some.mean, 0.505);
+        QCOMPARE(some.max, 1.0);
+        QCOMPARE(summary_of(report.elements).invalid, 1);
+        QCOMPARE(summary_of(report.elements, {}).elements(), 0);
     }
 
     void beta_steps_by_its_leading_digit() {

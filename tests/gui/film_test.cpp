@@ -9,11 +9,14 @@
 #include <QImage>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPainter>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
 
+#include "core/io/atomic_file.h"
 #include "tests/gui/gui_test_support.h"
+#include "tests/support/decoded_animation.h"
 #include "ui/jobs/film.h"
 #include "ui/main_window/film_dialog.h"
 #include "ui/main_window/mesh_view.h"
@@ -51,6 +54,17 @@ struct FilmUnderTest : WindowUnderTest {
         find<QCheckBox>("size_keeps")->setChecked(false);
         find<QSpinBox>("size_width")->setValue(width);
         find<QSpinBox>("size_height")->setValue(height);
+    }
+    void choose_animation(bool is_lossless) {
+        find<QComboBox>("film_format")->setCurrentIndex(1);
+        find<QCheckBox>("film_lossless")->setChecked(is_lossless);
+    }
+    QString animation() { return folder.filePath(QStringLiteral("it/way.webp")); }
+    DecodedAnimation decoded() { return DecodedAnimation(read_text_file(animation().toStdString())); }
+    /// A frame of the animation.
+    static QImage image_of(const DecodedAnimation& film, std::size_t frame) {
+        return QImage(film.frames[frame].data(), film.width, film.height, 4 * film.width, QImage::Format_RGBA8888)
+            .copy();
     }
     void write() {
         click("film_export");
@@ -155,6 +169,92 @@ class FilmTest : public QObject {
         QVERIFY(test.picture(2).copy(corner) != plain.copy(corner));
         QCOMPARE(test.picture(2).copy(0, 0, 320, 160), plain.copy(0, 0, 320, 160));
         QVERIFY(test.find<QLineEdit>("film_command")->text().contains(QStringLiteral("yuva420p")));
+    }
+
+    void an_animation_is_one_file() {
+        FilmUnderTest test;
+        test.show_dialog(5);
+        QVERIFY(!test.find<QCheckBox>("film_lossless")->isVisible());
+        test.write();
+        QCOMPARE(test.files().size(), 5);
+        test.choose_animation(true);
+        QVERIFY(test.find<QCheckBox>("film_lossless")->isVisible());
+        test.find<QSpinBox>("film_per_second")->setValue(20);
+        test.write();
+        QVERIFY2(test.errors.isEmpty(), qPrintable(test.errors.join(QLatin1Char('\n'))));
+        QVERIFY(test.find<QLabel>("film_message")->text().contains(QStringLiteral("way.webp")));
+        QVERIFY(!test.find<QLineEdit>("film_command")->isVisible());
+        // The pictures are still there to compare with, and the same.
+        QCOMPARE(test.files().size(), 6);
+        const DecodedAnimation film = test.decoded();
+        QCOMPARE(QSize(film.width, film.height), QSize(320, 200));
+        QCOMPARE(film.frames.size(), std::size_t{5});
+        QCOMPARE(film.ends, (std::vector<int>{50, 100, 150, 200, 250}));
+        for (int i = 0; i < 5; ++i)
+            QCOMPARE(FilmUnderTest::image_of(film, static_cast<std::size_t>(i)), test.picture(i + 1));
+        // A message before it is replaced, and there and back in the same frames.
+        test.find<QCheckBox>("film_back")->setChecked(true);
+        QVERIFY(test.find<QLabel>("film_message")->text().endsWith(QStringLiteral("will be replaced.")));
+        test.write();
+        const DecodedAnimation loop = test.decoded();
+        QCOMPARE(loop.frames.size(), std::size_t{8});
+        for (const auto& [place, same] : {std::pair{4, 5}, {5, 4}, {6, 3}, {7, 2}})
+            QCOMPARE(FilmUnderTest::image_of(loop, static_cast<std::size_t>(place)), test.picture(same));
+    }
+
+    void a_lossy_animation_is_near_and_see_through() {
+        FilmUnderTest test;
+        test.show_dialog(3);
+        test.find<QCheckBox>("film_transparent")->setChecked(true);
+        test.write();
+        test.choose_animation(false);
+        test.find<QSpinBox>("film_quality")->setValue(95);
+        test.write();
+        const DecodedAnimation film = test.decoded();
+        QCOMPARE(film.frames.size(), std::size_t{3});
+        QCOMPARE(film.pixel(1, 2, 2)[3], 0);
+        for (int i = 0; i < 3; ++i) {
+            // Laid on white: what see-through pixels hide does not count.
+            QImage pictures[] = {QImage(test.file(i + 1)), FilmUnderTest::image_of(film, static_cast<std::size_t>(i))};
+            std::vector<std::uint8_t> bytes[2];
+            for (int k = 0; k < 2; ++k) {
+                QImage ground(320, 200, QImage::Format_RGBA8888);
+                ground.fill(Qt::white);
+                QPainter(&ground).drawImage(0, 0, pictures[k]);
+                bytes[k].assign(ground.constBits(), ground.constBits() + ground.sizeInBytes());
+            }
+            QVERIFY(DecodedAnimation::difference(bytes[0], bytes[1]) < 3.0);
+        }
+        // What was chosen is remembered.
+        test.window->findChild<FilmDialog*>()->reject();
+        QTRY_VERIFY(!test.window->findChild<FilmDialog*>());
+        test.show_dialog(3);
+        QCOMPARE(test.find<QComboBox>("film_format")->currentIndex(), 1);
+        QCOMPARE(test.find<QSpinBox>("film_quality")->value(), 95);
+        test.find<QSpinBox>("film_per_second")->setValue(100);
+        QVERIFY(!test.find<QPushButton>("film_export")->isEnabled());
+        QVERIFY(test.find<QLabel>("film_message")->text().contains(QStringLiteral("60")));
+        test.find<QComboBox>("film_format")->setCurrentIndex(0);
+        QVERIFY(test.find<QPushButton>("film_export")->isEnabled());
+    }
+
+    void an_animation_that_is_stopped_leaves_nothing() {
+        FilmUnderTest test;
+        FilmDialog* dialog = test.show_dialog(400);
+        test.choose_animation(false);
+        auto* message = test.find<QLabel>("film_message");
+        test.click("film_export");
+        QVERIFY(QTest::qWaitFor([&] { return message->text().contains(QStringLiteral("frame 3 of")); }, 30000));
+        dialog->reject();
+        QVERIFY(test.wait_for_job());
+        QCOMPARE(message->text(), QStringLiteral("Stopped; nothing was written."));
+        QCOMPARE(QDir(test.folder.filePath(QStringLiteral("it"))).entryList(QDir::Files | QDir::Hidden), QStringList());
+        // A place that cannot be written to is told.
+        test.find<QSpinBox>("film_frames")->setValue(2);
+        QVERIFY(QDir(test.folder.filePath(QStringLiteral("it"))).mkdir(QStringLiteral("way.webp")));
+        test.write();
+        QCOMPARE(test.errors.size(), 1);
+        QVERIFY2(test.errors[0].contains(QStringLiteral("way.webp")), qPrintable(test.errors[0]));
     }
 
     void sizes_are_even() {

@@ -6,11 +6,15 @@
 #include <sys/stat.h>
 
 #include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
 #include <nlohmann/json.hpp>
 
 #include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
 #include "tests/regression/command_line.h"
+#include "tests/support/decoded_animation.h"
 
 namespace curvewright {
 namespace {
@@ -180,6 +184,52 @@ TEST_F(CommandLine, AnimateWritesPicturesOfAWarp) {
     expect_bad_input({"animate", annulus, "--deformation", deformation, "-o", "/proc/film"}, "/proc/film");
     EXPECT_EQ(cli({"animate", annulus, "--deformation", deformation, "-o", film, "--size", "161x120"}).status, 2);
     EXPECT_EQ(cli({"animate", annulus, "--deformation", deformation, "-o", film, "--frames", "1"}).status, 2);
+}
+
+TEST_F(CommandLine, AnimateWritesAnAnimation) {
+    const std::string deformation = folder / "shift.json", film = folder / "film.webp", pictures = folder / "pictures";
+    write(deformation, R"({"operations": [{"group": "inner", "type": "translate", "vector": [0.05, 0, 0]}]})");
+    const std::vector<std::string> common = {"animate",  annulus, "--deformation",   deformation, "--size", "160x120",
+                                             "--frames", "4",     "--there-and-back"};
+    const auto animate = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), common.begin(), common.end());
+        return cli(more);
+    };
+    const ProcessResult result = animate({"-o", film, "--fps", "8", "--lossless", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json told = Json::parse(result.output)["animation"];
+    EXPECT_EQ(told["count"], 6);
+    EXPECT_EQ(told["seconds"], 0.75);
+    EXPECT_EQ(told["bytes"], std::filesystem::file_size(film));
+    const testing::DecodedAnimation decoded(read(film));
+    EXPECT_EQ(decoded.width, 160);
+    EXPECT_EQ(decoded.height, 120);
+    ASSERT_EQ(decoded.frames.size(), 6u);
+    EXPECT_EQ(decoded.ends, (std::vector<int>{125, 250, 375, 500, 625, 750}));
+    // Back the same way, to rounding: it is drawn once more.
+    const auto difference = [&](std::size_t a, std::size_t b) {
+        return testing::DecodedAnimation::difference(decoded.frames[a], decoded.frames[b]);
+    };
+    EXPECT_GT(difference(0, 1), 0.02);
+    EXPECT_LT(difference(4, 2), 0.001);
+    EXPECT_LT(difference(5, 1), 0.001);
+    // The same as the pictures, rows the same way up.
+    ASSERT_EQ(animate({"-o", pictures}).status, 0);
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName((pictures + "/annulus-0003.png").c_str());
+    reader->Update();
+    vtkImageData* image = reader->GetOutput();
+    for (const auto& [x, y] : {std::pair{80, 60}, {40, 30}, {100, 50}, {155, 10}})
+        for (int k = 0; k < 3; ++k)
+            EXPECT_EQ(decoded.pixel(2, x, y)[static_cast<std::size_t>(k)],
+                      image->GetScalarComponentAsDouble(x, 119 - y, 0, k))
+                << x << " " << y;
+    EXPECT_EQ(decoded.pixel(2, 2, 2)[3], 255);
+    EXPECT_EQ(animate({"-o", pictures, "--fps", "8"}).status, 2);
+    EXPECT_EQ(animate({"-o", film, "--fps", "100"}).status, 2);
+    EXPECT_EQ(animate({"-o", film, "--lossless", "--quality", "10"}).status, 2);
+    expect_bad_input({"animate", annulus, "--deformation", deformation, "-o", folder / "none/film.webp"}, "film.webp");
+    EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
 TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {

@@ -88,6 +88,50 @@ MotionLeg leg_of(const LegPlan& plan, bool& is_lost, const TaskContext& context)
     return leg;
 }
 
+/// What the window draws of a frame.
+QImage frame_image(QObject* window, const FilmRequest& request, FrameSource& source, int index, int number, int count,
+                   const TaskContext& context) {
+    const QString phase = tr("frame %1 of %2").arg(format_count(number + 1), format_count(count));
+    context.report(phase.toStdString(), static_cast<double>(number) / count);
+    auto frame = std::make_shared<const Frame>(source.make(index, {context.stop, {}}));
+    return draw_in_window(window, request.draw, std::move(frame), context.stop);
+}
+
+void write_pictures(QObject* window, const FilmRequest& request, FrameSource& source, int pictures,
+                    const TaskContext& context) {
+    const int there = source.count();
+    const QStringList older = film_files(request.folder, request.prefix);
+    QStringList written;
+    for (int index = 0; index < there; ++index) {
+        const QByteArray bytes = encode_png(frame_image(window, request, source, index, index, there, context));
+        // The way back shows the same.
+        std::vector<int> places{index};
+        if (request.goes_back && index > 0 && index < there - 1) places.push_back(pictures - index);
+        for (const int place : places) {
+            written << film_file(request.folder, request.prefix, place + 1);
+            write_bytes(written.back(), bytes, {context.stop, {}});
+        }
+    }
+    // A video of the pictures must not end with those of an older film.
+    for (const QString& file : older)
+        if (!written.contains(file)) QFile::remove(file);
+}
+
+/// Returns the size of the file.
+quint64 write_animation(QObject* window, const FilmRequest& request, FrameSource& source, int pictures,
+                        const TaskContext& context) {
+    const TaskContext silent{context.stop, {}};
+    AnimationFile file(to_path(animation_path(request.folder, request.prefix)), *request.animation);
+    for (int number = 0; number < pictures; ++number) {
+        const int index = there_and_back(number, source.count());
+        const QImage image = frame_image(window, request, source, index, number, pictures, context)
+                                 .convertToFormat(QImage::Format_RGBA8888);
+        file.add({image.constBits(), static_cast<std::size_t>(image.sizeInBytes())}, silent);
+    }
+    context.report(tr("the file").toStdString(), 1.0);
+    return file.finish(silent);
+}
+
 }  // namespace
 
 QString film_file(const QString& folder, const QString& prefix, int number) {
@@ -103,35 +147,25 @@ QStringList film_files(const QString& folder, const QString& prefix) {
     return files;
 }
 
+QString animation_path(const QString& folder, const QString& prefix) {
+    return QDir(folder).filePath(prefix + QStringLiteral(".webp"));
+}
+
 JobRunner::Work film_work(QObject* window, FilmRequest request) {
     return [window, request = std::move(request)](const TaskContext& context) -> JobRunner::Finish {
-        const TaskContext silent{context.stop, {}};
-        const std::unique_ptr<FrameSource> source = request.source(silent);
-        const int there = source->count(), pictures = request.goes_back ? 2 * (there - 1) : there;
+        const std::unique_ptr<FrameSource> source = request.source({context.stop, {}});
         if (!QDir().mkpath(request.folder))
             throw InvalidInput(request.folder.toStdString(), 0,
                                tr("this folder cannot be made; choose another one.").toStdString());
-        const QStringList older = film_files(request.folder, request.prefix);
-        QStringList written;
-        for (int index = 0; index < there; ++index) {
-            const QString phase = tr("frame %1 of %2").arg(format_count(index + 1), format_count(there));
-            context.report(phase.toStdString(), static_cast<double>(index) / there);
-            auto frame = std::make_shared<const Frame>(source->make(index, silent));
-            const QByteArray bytes = encode_png(draw_in_window(window, request.draw, std::move(frame), context.stop));
-            // The way back shows the same.
-            std::vector<int> places{index};
-            if (request.goes_back && index > 0 && index < there - 1) places.push_back(pictures - index);
-            for (const int place : places) {
-                written << film_file(request.folder, request.prefix, place + 1);
-                write_bytes(written.back(), bytes, silent);
-            }
-        }
-        // A video of the pictures must not end with those of an older film.
-        for (const QString& file : older)
-            if (!written.contains(file)) QFile::remove(file);
-        const QString remark = QString::fromStdString(source->remark());
-        return [then = request.then, pictures, remark] {
-            if (then) then(pictures, remark);
+        FilmResult result;
+        result.pictures = request.goes_back ? 2 * (source->count() - 1) : source->count();
+        if (request.animation)
+            result.bytes = write_animation(window, request, *source, result.pictures, context);
+        else
+            write_pictures(window, request, *source, result.pictures, context);
+        result.remark = QString::fromStdString(source->remark());
+        return [then = request.then, result] {
+            if (then) then(result);
         };
     };
 }

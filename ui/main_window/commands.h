@@ -22,6 +22,7 @@ enum class CommandId {
     export_mesh,
     save_picture,
     export_film,
+    export_quality,
     save_session,
     close_mesh,
     quit,

@@ -53,6 +53,12 @@ QCheckBox* make_check(const char* object_name, const QString& text, const QStrin
     return box;
 }
 
+/// "gear" of gear.msh and of gear.msh.gz.
+QString stem_of(QString file_name) {
+    if (file_name.endsWith(QLatin1String(".gz"))) file_name.chop(3);
+    return QFileInfo(file_name).completeBaseName();
+}
+
 QString setting(const char* name) {
     return QStringLiteral("film/") + QLatin1String(name);
 }
@@ -120,15 +126,27 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
     legend_->setEnabled(view.options().show_legend);
     caption_ = make_check("film_caption", tr("Caption"), tr("What happens, at the lower left of every picture"),
                           saved("caption", true).toBool());
+    format_ = make_choice(
+        "film_format", tr("What is written."),
+        {{tr("PNG pictures, for a video"), 0,
+          tr("one file per picture; ffmpeg makes a video of them, as programs for slides want it.")},
+         {tr("Animated WebP, one file"), 1,
+          tr("every browser plays it in a loop, like any other picture of a page; see-through if the ground is.")}});
+    format_->setCurrentIndex(format_->findData(saved("animated", false).toBool() ? 1 : 0));
+    quality_ = make_count("film_quality", 1, 100, saved("quality", 90).toInt());
+    quality_->setPrefix(tr("quality "));
+    quality_->setToolTip(tr("From 1, small, to 100, fine"));
+    lossless_ = make_check("film_lossless", tr("Lossless"), tr("Every pixel as it was drawn, in a larger file"),
+                           saved("lossless", false).toBool());
     const QString beside = settings.value(QStringLiteral("last_folder"), QDir::homePath()).toString() +
-                           tr("/%1-animation").arg(QFileInfo(document.file_name()).completeBaseName());
+                           tr("/%1-animation").arg(stem_of(document.file_name()));
     folder_ = new QLineEdit(saved("folder", beside).toString());
     folder_->setObjectName(QStringLiteral("film_folder"));
     auto* browse = new QPushButton(tr("Choose…"));
     browse->setObjectName(QStringLiteral("film_browse"));
-    prefix_ = new QLineEdit(QFileInfo(document.file_name()).completeBaseName());
+    prefix_ = new QLineEdit(stem_of(document.file_name()));
     prefix_->setObjectName(QStringLiteral("film_prefix"));
-    prefix_->setToolTip(tr("The pictures are called NAME-0001.png and so on"));
+    prefix_->setToolTip(tr("The pictures are called NAME-0001.png and so on, an animation NAME.webp"));
     message_ = make_paragraph(QString(), "");
     message_->setObjectName(QStringLiteral("film_message"));
 
@@ -142,6 +160,12 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         form->addRow(label, row);
     };
     form->addRow(tr("From"), from_);
+    auto* kind = new QHBoxLayout;
+    kind->setSpacing(8);
+    kind->addWidget(format_, 1);
+    kind->addWidget(quality_);
+    kind->addWidget(lossless_);
+    form->addRow(tr("Format"), kind);
     add_pair(tr("Pictures"), frames_, per_second_);
     add_pair(QString(), back_, duration_);
     form->addRow(tr("Size"), size_);
@@ -194,6 +218,8 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
     layout->addWidget(buttons);
     setMinimumWidth(520);
 
+    connect(format_, &QComboBox::currentIndexChanged, this, &FilmDialog::change);
+    connect(lossless_, &QCheckBox::toggled, this, &FilmDialog::change);
     for (QSpinBox* box : {frames_, per_second_}) connect(box, &QSpinBox::valueChanged, this, &FilmDialog::change);
     for (QCheckBox* box : {back_, transparent_}) connect(box, &QCheckBox::toggled, this, &FilmDialog::change);
     for (QLineEdit* line : {folder_, prefix_}) connect(line, &QLineEdit::textChanged, this, &FilmDialog::change);
@@ -221,7 +247,10 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         if (was_writing_) show_message({}, "");
     });
     connect(&jobs.runner(), &JobRunner::cancelled, this, [this] {
-        if (was_writing_) show_message(tr("Stopped; the pictures so far are in the folder."), "warning");
+        if (!was_writing_) return;
+        show_message(is_animation() ? tr("Stopped; nothing was written.")
+                                    : tr("Stopped; the pictures so far are in the folder."),
+                     "warning");
     });
     connect(&document, &MeshDocument::opened, this, &QDialog::reject);
     connect(&document, &MeshDocument::state_changed, this, [this] {
@@ -266,6 +295,10 @@ void FilmDialog::reject() {
     QDialog::reject();
 }
 
+bool FilmDialog::is_animation() const {
+    return format_->currentData().toInt() == 1;
+}
+
 PictureOptions FilmDialog::picture_options() const {
     PictureOptions options;
     options.size = size_->picture_size();
@@ -279,6 +312,11 @@ QString FilmDialog::why_not() const {
     if (folder_->text().trimmed().isEmpty()) return tr("Choose a folder for the pictures.");
     if (prefix_->text().isEmpty() || prefix_->text().contains(QLatin1Char('/')))
         return tr("Give the pictures a name without “/”.");
+    if (is_animation() && per_second_->value() > AnimationFile::max_rate)
+        return tr("Browsers show at most %1 pictures per second of an animation.").arg(AnimationFile::max_rate);
+    const QSize size = size_->picture_size();
+    if (is_animation() && std::max(size.width(), size.height()) > AnimationFile::max_side)
+        return tr("An animation has at most %1 pixels on a side.").arg(format_count(AnimationFile::max_side));
     return why_no_picture(size_->picture_size(), view_.largest_picture_side());
 }
 
@@ -287,6 +325,9 @@ void FilmDialog::refresh() {
     const int count = back_->isChecked() ? 2 * (frames_->value() - 1) : frames_->value();
     duration_->setText(tr("%1 pictures, %2 s")
                            .arg(format_count(count), QString::number(double(count) / per_second_->value(), 'f', 1)));
+    for (QWidget* field : {static_cast<QWidget*>(quality_), static_cast<QWidget*>(lossless_)})
+        field->setVisible(is_animation());
+    quality_->setEnabled(!lossless_->isChecked());
     const QString problem = why_not();
     export_->setEnabled(problem.isEmpty() && !jobs_.runner().is_running() && !makes_video);
     settings_page_->setEnabled(!is_writing_ && !makes_video);
@@ -299,9 +340,12 @@ void FilmDialog::change() {
     result_->hide();
     refresh();
     const QString problem = why_not();
-    const auto older = film_files(folder_->text(), prefix_->text()).size();
+    const auto older = is_animation() ? 0 : film_files(folder_->text(), prefix_->text()).size();
+    const QString film = animation_path(folder_->text(), prefix_->text());
     if (!problem.isEmpty())
         show_message(problem, "warning");
+    else if (is_animation() && QFileInfo::exists(film))
+        show_message(tr("%1 is there and will be replaced.").arg(QDir::toNativeSeparators(film)), "muted");
     else if (older > 0)
         show_message(older == 1
                          ? tr("1 picture of this name is there and will be replaced.")
@@ -332,10 +376,13 @@ void FilmDialog::start() {
     request.goes_back = back_->isChecked();
     request.folder = QDir(folder_->text()).absolutePath();
     request.prefix = prefix_->text();
+    if (is_animation())
+        request.animation = AnimationOptions{drawn_.size.width(), drawn_.size.height(), double(per_second_->value()),
+                                             lossless_->isChecked(), double(quality_->value())};
     const QPointer<FilmDialog> self(this);
     request.draw = [self](const Frame& frame) { return self ? self->draw(frame) : QImage(); };
-    request.then = [self](int pictures, const QString& remark) {
-        if (self) self->show_result(pictures, remark);
+    request.then = [self](const FilmResult& result) {
+        if (self) self->show_result(result);
     };
     result_->hide();
     is_writing_ = true;
@@ -364,11 +411,18 @@ QImage FilmDialog::draw(const Frame& frame) {
     return image;
 }
 
-void FilmDialog::show_result(int pictures, const QString& remark) {
+void FilmDialog::show_result(const FilmResult& result) {
     const QString folder = QDir(folder_->text()).absolutePath();
-    QString text = tr("%1 pictures are in %2.").arg(format_count(pictures), QDir::toNativeSeparators(folder));
-    if (!remark.isEmpty()) text += QLatin1Char(' ') + remark;
-    show_message(text, remark.isEmpty() ? "good" : "warning");
+    const QString where = QDir::toNativeSeparators(is_animation() ? animation_path(folder, prefix_->text()) : folder);
+    QString text =
+        is_animation()
+            ? tr("%1 pictures are in %2 (%3).")
+                  .arg(format_count(result.pictures), where,
+                       QLocale::c().formattedDataSize(static_cast<qint64>(result.bytes), 1, QLocale::DataSizeSIFormat))
+            : tr("%1 pictures are in %2.").arg(format_count(result.pictures), where);
+    if (!result.remark.isEmpty()) text += QLatin1Char(' ') + result.remark;
+    show_message(text, result.remark.isEmpty() ? "good" : "warning");
+    if (is_animation()) return;
     command_->setText(video_command(folder, prefix_->text(), per_second_->value(), drawn_.is_transparent));
     command_->setCursorPosition(0);
     command_->setToolTip(command_->text());
@@ -392,6 +446,9 @@ void FilmDialog::remember() const {
     QSettings settings;
     settings.setValue(setting("frames"), frames_->value());
     settings.setValue(setting("per_second"), per_second_->value());
+    settings.setValue(setting("animated"), is_animation());
+    settings.setValue(setting("quality"), quality_->value());
+    settings.setValue(setting("lossless"), lossless_->isChecked());
     settings.setValue(setting("back"), back_->isChecked());
     settings.setValue(setting("line_scale"), line_scale_->value());
     settings.setValue(setting("transparent"), transparent_->isChecked());

@@ -29,8 +29,8 @@ QString video_command(const QString& folder, const QString& prefix, int per_seco
 QStringList video_arguments(const QString& folder, const QString& prefix, int per_second, bool is_transparent,
                             QString& video);
 
-/// File > Export animation: the way of the mesh to its present state as pictures for a video, drawn from where the view
-/// is. The window stays usable beside it.
+/// File > Export animation: the way of the mesh to its present state as pictures for a video or as an animation, drawn
+/// from where the view is. The window stays usable beside it.
 class FilmDialog : public QDialog {
     Q_OBJECT
 
@@ -50,9 +50,10 @@ class FilmDialog : public QDialog {
     void refresh();
     void start();
     QImage draw(const Frame& frame);
-    void show_result(int pictures, const QString& remark);
+    void show_result(const FilmResult& result);
     void show_message(const QString& text, const char* tone);
     void run_ffmpeg();
+    bool is_animation() const;
     PictureOptions picture_options() const;
     QString why_not() const;
     void remember() const;
@@ -66,9 +67,9 @@ class FilmDialog : public QDialog {
     QProcess ffmpeg_;
     QString video_;
 
-    QComboBox* from_ = nullptr;
-    QSpinBox *frames_ = nullptr, *per_second_ = nullptr;
-    QCheckBox *back_ = nullptr, *transparent_ = nullptr, *legend_ = nullptr, *caption_ = nullptr;
+    QComboBox *from_ = nullptr, *format_ = nullptr;
+    QSpinBox *frames_ = nullptr, *per_second_ = nullptr, *quality_ = nullptr;
+    QCheckBox *back_ = nullptr, *transparent_ = nullptr, *lossless_ = nullptr, *legend_ = nullptr, *caption_ = nullptr;
     QLabel *duration_ = nullptr, *message_ = nullptr;
     SizeFields* size_ = nullptr;
     QDoubleSpinBox* line_scale_ = nullptr;

@@ -194,6 +194,8 @@ void MainWindow::connect_panels() {
             [this](Index element) { select_elements({element}, true); });
     connect(quality_panel_, &QualityPanel::elements_chosen, this,
             [this](const std::vector<Index>& elements) { select_elements(elements, false); });
+    connect(quality_panel_, &QualityPanel::export_requested, actions_[CommandId::export_quality], &QAction::trigger);
+    connect(actions_[CommandId::export_quality], &QAction::triggered, this, &MainWindow::ask_export_quality);
     connect(mesh_panel_, &MeshPanel::elements_chosen, this,
             [this](const std::vector<Index>& elements) { select_elements(elements, false); });
     connect(mesh_panel_, &MeshPanel::nodes_chosen, &edit_, &EditState::select_nodes);
@@ -270,7 +272,8 @@ void MainWindow::update_commands() {
         if (entry.command != CommandId::fit) actions_[entry.command]->setEnabled(is_3d);
     actions_[CommandId::clip]->setEnabled(is_3d);
     actions_[CommandId::orthographic]->setEnabled(is_3d);
-    actions_[CommandId::worst_only]->setEnabled(has_mesh && document_.state().quality);
+    for (const CommandId id : {CommandId::worst_only, CommandId::export_quality})
+        actions_[id]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::bookmark_add]->setEnabled(has_mesh);
     actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh && document_.history()->index() > 0);
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());

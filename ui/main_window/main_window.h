@@ -154,6 +154,7 @@ class MainWindow : public QMainWindow {
     void add_bookmark();
     void go_to_bookmark(int number);
     void ask_export_film();
+    void ask_export_quality();
 
     // main_window_files.cpp
     void ask_open();

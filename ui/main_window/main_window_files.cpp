@@ -7,11 +7,13 @@
 #include <QStandardPaths>
 #include <QStatusBar>
 
+#include "core/base/error.h"
 #include "core/session/session_file.h"
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/main_window/picture_dialog.h"
 #include "ui/panels/operation_panels.h"
+#include "ui/panels/quality_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/untangle_panel.h"
 
@@ -236,6 +238,34 @@ void MainWindow::ask_save_picture() {
                                  8000);
     });
     dialog->show();
+}
+
+void MainWindow::ask_export_quality() {
+    if (!document_.state().quality) return;
+    const QStringList filters{tr("Table of bars and figures (*.csv)"), tr("Drawing (*.svg)"), tr("Picture (*.png)")};
+    const QStringList suffixes{QStringLiteral("csv"), QStringLiteral("svg"), QStringLiteral("png")};
+    QString suggestion = suggested_path(suffixes[0]);
+    suggestion.replace(suggestion.lastIndexOf(QStringLiteral("-curved.")), 8, QStringLiteral("-quality."));
+    QString selected = filters[0];
+    QString path =
+        dialogs_.save_file(this, tr("Export the histogram"), suggestion, filters.join(QStringLiteral(";;")), selected);
+    if (path.isEmpty()) return;
+    // The end of the name says what is written, unless only another kind was chosen, or none was typed.
+    const auto kind = std::max<qsizetype>(0, filters.indexOf(selected));
+    if (path == suggestion && kind > 0) path.chop(4);
+    const QString stem = path;
+    if (path == suggestion.chopped(4) || QFileInfo(path).suffix().isEmpty())
+        for (int number = 2; path == stem || QFileInfo::exists(path); ++number)
+            path =
+                (number == 2 ? stem : stem + QStringLiteral("-%1").arg(number - 1)) + QLatin1Char('.') + suffixes[kind];
+    try {
+        write_comparison(quality_panel_->comparison(), path);
+    } catch (const Error& error) {
+        dialogs_.show_error(this, tr("The histogram was not exported"), QString::fromUtf8(error.what()));
+        return;
+    }
+    remember_folder(path);
+    statusBar()->showMessage(tr("Wrote %1.").arg(path), 8000);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -5,6 +5,7 @@
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/panels/quality_panel.h"
 #include "ui/panels/selection_panel.h"
 
 namespace curvewright {
@@ -66,6 +67,7 @@ void MainWindow::connect_selection() {
 
     connect(&edit_, &EditState::selection_changed, this, [this] {
         view_->set_highlighted_elements(edit_.elements());
+        quality_panel_->set_selected(edit_.elements());
         update_commands();
     });
     connect(&edit_, &EditState::pins_changed, this, &MainWindow::update_commands);

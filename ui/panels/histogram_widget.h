@@ -1,87 +1,78 @@
 #pragma once
 
-#include <memory>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include <QWidget>
 
-#include "core/quality/quality.h"
-#include "ui/palette/color_map.h"
-#include "ui/panels/theme.h"
+#include "ui/panels/histogram_drawing.h"
 
 namespace curvewright {
 
-/// Bars of one quality report: an alarm bin "≤ 0" of the tangled elements, then equal bins over [0, 1]. Undecided
-/// elements are stacked in their own colour.
-struct HistogramBars {
-    static constexpr int bins = 25;
-    struct Bar {
-        std::vector<Index> decided, undecided;  ///< elements
-        Index count() const { return static_cast<Index>(decided.size() + undecided.size()); }
-    };
-    Bar tangled;
-    std::vector<Bar> bars;  ///< bins
-
-    /// Largest count of any bar.
-    Index highest() const;
-};
-HistogramBars make_bars(const QualityReport& report);
-
-/// Draws the bars of a report. Two of them given the same limit and scale can be compared at a glance.
+/// Bars of the scaled Jacobian of some elements. Two of them given the same limit and scale can be compared at a
+/// glance; one can have the other's as an outline. A click takes a bar, a brush over several takes all of them.
 class HistogramWidget : public QWidget {
     Q_OBJECT
 
   public:
     explicit HistogramWidget(const Theme& theme, QWidget* parent = nullptr);
 
-    /// Null: empty.
-    void set_report(std::shared_ptr<const QualityReport> report);
-    const HistogramBars& bars() const { return bars_; }
+    /// None: empty. least: the smallest scaled Jacobian.
+    void set_elements(std::optional<std::span<const ElementQuality>> elements, double least);
+    /// What the bars are compared with, drawn as a line over them.
+    void set_outline(std::optional<HistogramBars> outline);
+    void set_title(const QString& title);
+    /// Elements that are selected: a darker part of each bar.
+    void set_selected(const IndexSet& elements);
+    const HistogramBars& bars() const { return drawing_.bars; }
+    bool has_data() const { return drawing_.has_data; }
     /// Count at the top of the scale, and whether counts are drawn logarithmically.
     void set_scale(Index limit, bool is_logarithmic);
-    Index limit() const { return limit_; }
+    Index limit() const { return drawing_.limit; }
     /// Map and range of the bars' colours.
     void set_colors(const ColorScale& colors);
+    /// What is drawn, in whatever frame it has on the screen.
+    const HistogramDrawing& drawing() const { return drawing_; }
 
-    QSize sizeHint() const override { return {280, 104}; }
-    QSize minimumSizeHint() const override { return {180, 80}; }
+    QSize sizeHint() const override { return {280, 112}; }
+    QSize minimumSizeHint() const override { return {180, 88}; }
 
   signals:
-    /// The elements of the bar that was clicked.
-    void bar_clicked(const std::vector<Index>& elements);
+    /// The elements of the bars that were taken, once more whenever a brush reaches another one; with Ctrl those that
+    /// were selected before too.
+    void elements_taken(const IndexSet& elements);
 
   protected:
+    bool event(QEvent* event) override;
     void paintEvent(QPaintEvent* event) override;
+    void resizeEvent(QResizeEvent* event) override;
     void mousePressEvent(QMouseEvent* event) override;
     void mouseMoveEvent(QMouseEvent* event) override;
+    void mouseReleaseEvent(QMouseEvent* event) override;
     void leaveEvent(QEvent* event) override;
     void keyPressEvent(QKeyEvent* event) override;
     void focusInEvent(QFocusEvent* event) override;
     void focusOutEvent(QFocusEvent* event) override;
 
   private:
-    QRectF plot() const;
-    QRectF bar_area(int bar) const;      ///< full height; bar -1 = the tangled one
-    int bar_at(QPointF position) const;  ///< -2 = none
-    const HistogramBars::Bar& bar(int index) const {
-        return index < 0 ? bars_.tangled : bars_.bars[static_cast<std::size_t>(index)];
-    }
-    double height_of(Index count) const;  ///< fraction of the plot
     /// How many elements, in which range.
-    QString describe(int bar) const;
-    void choose(int bar);
+    QString describe(int first, int last) const;
+    /// From the anchor to where the hand or the keyboard is.
+    void take();
+    void tell_range(QPoint place);
     /// The next bar with elements in it to the right (1) or to the left (-1); the same one if there is none.
     int next_bar(int bar, int step) const;
-    void go_to(int bar);
+    void go_to(int bar, bool extends);
 
     const Theme& theme_;
-    std::shared_ptr<const QualityReport> report_;
-    HistogramBars bars_;
-    ColorScale colors_;
-    Index limit_ = 1;
-    bool is_logarithmic_ = true;
-    int hovered_ = -2;
-    int current_ = -2;  ///< where the keyboard is
+    HistogramDrawing drawing_;
+    IndexSet selected_;
+    IndexSet kept_;  ///< stays selected beside what is taken
+    int hovered_ = HistogramBars::no_bar;
+    int current_ = HistogramBars::no_bar;  ///< where the keyboard is
+    int anchor_ = HistogramBars::no_bar;   ///< where the range begins that ends at current_
+    bool is_brushing_ = false;
 };
 
 }  // namespace curvewright

@@ -107,7 +107,7 @@ class ScaledOptions {
 
 }  // namespace
 
-void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file, PictureGround ground) {
+PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGround ground) {
     if (width < 1 || height < 1 || width > max_side || height > max_side)
         throw Unsupported(fmt::format("A picture of {}×{} pixels cannot be drawn; 1×1 to {}×{} can.", width, height,
                                       max_side, max_side));
@@ -131,10 +131,13 @@ void render_png(MeshScene& scene, int width, int height, const std::filesystem::
         }).join();
         if (failure) std::rethrow_exception(failure);
     }
-    const PicturePixels pixels =
-        is_transparent
-            ? without_ground(drawn[0]->GetPointer(0), drawn[1]->GetPointer(0), factor * width, factor * height, factor)
-            : average(drawn[0]->GetPointer(0), factor * width, factor * height, factor);
+    return is_transparent ? without_ground(drawn[0]->GetPointer(0), drawn[1]->GetPointer(0), factor * width,
+                                           factor * height, factor)
+                          : average(drawn[0]->GetPointer(0), factor * width, factor * height, factor);
+}
+
+void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file, PictureGround ground) {
+    const PicturePixels pixels = render_pixels(scene, width, height, ground);
     vtkNew<vtkImageData> image;
     image->SetDimensions(width, height, 1);
     image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);

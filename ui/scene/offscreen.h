@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "ui/scene/mesh_scene.h"
+#include "ui/scene/picture_pixels.h"
 
 namespace curvewright {
 
@@ -12,11 +13,13 @@ enum class PictureGround {
     transparent,  ///< nothing: borders of what is drawn are see-through in part, without the background in them
 };
 
-/// Renders a scene without a window or a display (EGL surfaceless) and writes a PNG, atomically: twice as large and
-/// averaged, for smooth borders. The scene must not be part of a window; to export what a window shows, give a scene of
-/// its own the same mesh, options and view (MeshScene::copy_view).
-/// Throws Unsupported if the scene is in a window, or no OpenGL 3.2 context can be made (what is missing is named),
-/// InvalidInput if the file cannot be written.
+/// Renders a scene without a window or a display (EGL surfaceless): twice as large and averaged, for smooth borders.
+/// The scene must not be part of a window; to export what a window shows, give a scene of its own the same mesh,
+/// options and view (MeshScene::copy_view). Throws Unsupported if the scene is in a window, or no OpenGL 3.2 context
+/// can be made (what is missing is named).
+PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGround ground = PictureGround::background);
+
+/// The same as a PNG file, written atomically. Throws InvalidInput if the file cannot be written.
 void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file,
                 PictureGround ground = PictureGround::background);
 

@@ -54,4 +54,18 @@ PicturePixels without_ground(const unsigned char* on_black, const unsigned char*
     return picture;
 }
 
+std::vector<unsigned char> rgba_from_top(const PicturePixels& picture) {
+    const auto width = static_cast<std::size_t>(picture.width), height = static_cast<std::size_t>(picture.height),
+               channels = static_cast<std::size_t>(picture.channels);
+    std::vector<unsigned char> rgba(width * height * 4);
+    for (std::size_t row = 0; row < height; ++row)
+        for (std::size_t column = 0; column < width; ++column) {
+            const unsigned char* from = &picture.bytes[((height - 1 - row) * width + column) * channels];
+            unsigned char* to = &rgba[(row * width + column) * 4];
+            for (std::size_t k = 0; k < 3; ++k) to[k] = from[k];
+            to[3] = channels == 4 ? from[3] : 255;
+        }
+    return rgba;
+}
+
 }  // namespace curvewright

@@ -10,6 +10,9 @@ struct PicturePixels {
     std::vector<unsigned char> bytes;
 };
 
+/// Rows from the top, 4 bytes per pixel.
+std::vector<unsigned char> rgba_from_top(const PicturePixels& picture);
+
 /// Means of blocks of factor × factor pixels. rgb: width × height × 3; width and height are multiples of factor.
 PicturePixels average(const unsigned char* rgb, int width, int height, int factor);
 

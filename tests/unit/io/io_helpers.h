@@ -20,7 +20,7 @@ namespace curvewright {
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        const auto* test = testing::UnitTest::GetInstance()->current_test_info();
+        const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
         path_ = std::filesystem::temp_directory_path() /
                 ("curvewright-" + std::to_string(::getpid()) + "-" + test->test_suite_name() + "-" + test->name());
         std::filesystem::create_directories(path_);
