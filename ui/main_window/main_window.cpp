@@ -192,6 +192,13 @@ void MainWindow::connect_panels() {
     connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
     connect(worst_table_, &WorstTable::element_chosen, this,
             [this](Index element) { select_elements({element}, true); });
+    connect(worst_table_, &WorstTable::count_changed, this, [this](int count) {
+        if (count == preferences_.worst_count) return;
+        preferences_ = Preferences::load();
+        preferences_.worst_count = count;
+        preferences_.store();
+        if (actions_[CommandId::worst_only]->isChecked()) update_options();
+    });
     connect(quality_panel_, &QualityPanel::elements_chosen, this,
             [this](const std::vector<Index>& elements) { select_elements(elements, false); });
     connect(mesh_panel_, &MeshPanel::elements_chosen, this,
@@ -322,7 +329,7 @@ void MainWindow::update_options() {
     options.only_elements.reset();
     const auto& quality = document_.state().quality;
     if (quality && actions_[CommandId::worst_only]->isChecked())
-        options.only_elements = quality->worst(WorstTable::max_rows);
+        options.only_elements = quality->worst(static_cast<std::size_t>(preferences_.worst_count));
     options.clip.reset();
     if (is_clipped) {
         const ClipSetting setting = clip_bar_->setting();

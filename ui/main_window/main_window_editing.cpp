@@ -16,6 +16,7 @@
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/selection_panel.h"
 #include "ui/panels/widgets.h"
+#include "ui/panels/worst_table.h"
 #include "ui/tools/drag_tool.h"
 #include "ui/tools/look_tool.h"
 #include "ui/tools/pin_tool.h"
@@ -64,6 +65,7 @@ void MainWindow::connect_editing() {
         view_->show_state(document_.state());
         quality_panel_->show_state();
         mesh_panel_->show_state();
+        worst_table_->show_state();
         if (document_.state().quality) show_verdict(document_.state().quality->summary);
     });
     connect(&drag_, &LiveDrag::failed, this,
@@ -155,6 +157,7 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
     const QualitySummary& summary = quality->summary;
     show_verdict(summary);
     mesh_panel_->show_quality(summary);
+    worst_table_->show_live(*quality);
     QString validity = describe_validity(summary);
     if (summary.invalid > 0)
         validity += tr(", worst: element %1")
