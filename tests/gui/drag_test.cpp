@@ -127,6 +127,31 @@ class DragTest : public QObject {
         QVERIFY(is_alike(test.view().picture(1), untouched));
     }
 
+    void the_tag_leaves_the_legend_free() {
+        DragUnderTest test;
+        test.window->resize(1280, 800);
+        for (const bool is_split : {false, true}) {
+            test.window->action(CommandId::compare)->setChecked(is_split);
+            QTest::qWait(100);
+            test.take(test.node_at(1.0, 0.5));
+            auto* tag = test.window->findChild<QWidget*>(QStringLiteral("pointer_tag"));
+            const int right = test.view().free_area().toRect().right();
+            // Into the legend, from the top to the bottom.
+            test.move_by({test.view().width() - 30 - test.mouse.x(), 20 - test.mouse.y()});
+            for (int step = 0; step < 5; ++step) {
+                QVERIFY(test.mouse.x() > right);
+                QVERIFY(tag->isVisible());
+                QVERIFY2(tag->geometry().right() <= right,
+                         qPrintable(QStringLiteral("%1 %2").arg(tag->geometry().right()).arg(right)));
+                QVERIFY(test.view().rect().contains(tag->geometry()));
+                QVERIFY(!tag->geometry().contains(test.mouse));
+                test.move_by({0, test.view().height() / 5 - 5});
+            }
+            QTest::keyClick(&test.view(), Qt::Key_Escape);
+            QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, test.mouse);
+        }
+    }
+
     void frames_drawn_behind_are_the_same_frames() {
         QImage pictures[2];
         Coordinates ends[2];

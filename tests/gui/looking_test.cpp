@@ -97,6 +97,35 @@ class LookingTest : public QObject {
         QVERIFY(!test.before_view().isVisible());
     }
 
+    void what_was_seen_is_seen_in_half_the_width() {
+        LookingUnderTest test;
+        const auto from_middle = [&](double x, double y) {
+            return test.view().to_display(Eigen::RowVector3d(x, y, 0.0)) - test.view().free_area().center();
+        };
+        const auto is_near = [](QPointF a, QPointF b) { return (a - b).manhattanLength() < 3.0; };
+        // Fitted: fitted again.
+        test.toggle(CommandId::compare);
+        QTest::qWait(300);
+        QVERIFY(test.view().keeps_fitted());
+        test.toggle(CommandId::compare);
+        QVERIFY(test.view().keeps_fitted());
+        // Moved: what was seen stays where it was, smaller, and comes back.
+        QTest::keyClick(&test.view(), Qt::Key_Right);
+        QTest::keyClick(&test.view(), Qt::Key_Up);
+        QTest::qWait(60);
+        QVERIFY(!test.view().keeps_fitted());
+        const QPointF whole = from_middle(1.0, 0.0);
+        const double width = test.view().free_area().width();
+        test.toggle(CommandId::compare);
+        const double share = test.view().free_area().width() / width;
+        QVERIFY(share < 0.5);
+        QTRY_VERIFY(is_near(from_middle(1.0, 0.0), whole * share));
+        const ViewPose there = test.view().pose();
+        QTRY_COMPARE(test.before_view().pose().scale, there.scale);
+        test.toggle(CommandId::compare);
+        QTRY_VERIFY(is_near(from_middle(1.0, 0.0), whole));
+    }
+
     void shrunk_elements_leave_gaps_and_still_move() {
         LookingUnderTest test;
         const int whole = LookingUnderTest::drawn(test.view().picture(1));

@@ -406,7 +406,7 @@ void MainWindow::show_tab(const QString& name) {
 }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == view_ && event->type() == QEvent::Resize) place_bars();
+    if ((watched == view_ || watched == before_view_) && event->type() == QEvent::Resize) place_bars();
     return QMainWindow::eventFilter(watched, event);
 }
 
