@@ -83,7 +83,6 @@ WorstTable::WorstTable(MeshDocument& document, const Theme& theme, QWidget* pare
     layout->setSpacing(4);
     layout->addLayout(head);
     layout->addWidget(table_);
-    setTabOrder(table_, count_);
 
     pause_.setSingleShot(true);
     connect(&pause_, &QTimer::timeout, this, &WorstTable::show_rows);

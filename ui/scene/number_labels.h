@@ -28,7 +28,7 @@ struct NumberLabel {
 };
 
 /// Numbers over the mesh: upright digits of constant size with a halo, so that they are legible on any colour. They
-/// never overlap; where room is short those nearest the eye are shown. Digits come from one texture, and all numbers
+/// never overlap; where room is short those nearest the eye are shown, the fewer the more there are. Digits come from one texture, and all numbers
 /// are one batch of rectangles, made anew when the view or the numbers change.
 class NumberLabels {
   public:
@@ -57,6 +57,8 @@ class NumberLabels {
     const std::vector<Placed>& placed() const { return placed_; }
 
   private:
+    /// Width and height, device pixels.
+    std::array<int, 2> size_of(const NumberLabel& label) const;
     void make_digits(double pixel_ratio);
     void place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame);
     void draw();
