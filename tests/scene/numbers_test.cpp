@@ -8,6 +8,7 @@
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_window.h"
 #include "ui/scene/offscreen.h"
+#include "ui/scene/text_font.h"
 
 namespace curvewright {
 namespace {
@@ -222,6 +223,37 @@ TEST(Numbers, AreLegibleOnEveryGroundAndAtEverySize) {
             EXPECT_EQ(legible, static_cast<int>(shown.size())) << is_dark << ratio;
             EXPECT_NEAR(tall / ratio, 12.5, 3.0);
         }
+}
+
+TEST(Text, IsWholeInTheFontOfTheWindowAndInVtks) {
+    const CurvedMesh mesh = make_ring();
+    const QualityReport report = make_report(mesh, {tangled_ring_element});
+    for (const TextFont& font : {TextFont(), find_text_font()}) {
+        MeshScene scene;
+        SceneOptions options = numbers(true, true);
+        options.font = font;
+        scene.set_options(options);
+        scene.set_mesh(&mesh, &report);
+        const auto file = temporary_picture("font");
+        render_png(scene, width, height, file);
+        const Image image = read_image(file);
+        // Dark pixels of the legend, right of its bar: there are some, and none at the picture's edge.
+        int ink = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = width - 80; x < width; ++x) {
+                const auto* pixel = image.pixel(x, y);
+                if (pixel[0] > 150 || pixel[1] > 150 || pixel[2] > 150) continue;
+                ++ink;
+                EXPECT_LT(x, width - 2) << font.regular << " " << y;
+            }
+        EXPECT_GT(ink, 200) << font.regular;
+    }
+    // Both files are there, or neither is asked for.
+    const TextFont found = find_text_font();
+    EXPECT_EQ(found.regular.empty(), found.bold.empty());
+    if (!found.regular.empty()) {
+        EXPECT_TRUE(std::filesystem::is_regular_file(found.regular) && std::filesystem::is_regular_file(found.bold));
+    }
 }
 
 }  // namespace

@@ -322,6 +322,8 @@ void MainWindow::update_options() {
     options.show_node_numbers = actions_[CommandId::node_numbers]->isChecked();
     options.show_element_numbers = actions_[CommandId::element_numbers]->isChecked();
     options.is_orthographic = actions_[CommandId::orthographic]->isChecked();
+    static const TextFont font = find_text_font();
+    options.font = font;
     options.background = to_color(theme_.color(QStringLiteral("view")));
     options.foreground = to_color(theme_.color(QStringLiteral("text")));
     options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));

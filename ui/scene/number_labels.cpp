@@ -63,15 +63,13 @@ struct Glyph {
     }
 };
 
-Glyph render_glyph(char character, double pixels, bool is_bold) {
+Glyph render_glyph(char character, const TextFont& font, double pixels, bool is_bold) {
     vtkNew<vtkTextProperty> style;
-    style->SetFontFamilyToArial();
-    style->SetBold(is_bold);
     style->SetColor(1.0, 1.0, 1.0);
-    style->SetFontSize(std::max(1, static_cast<int>(std::lround(pixels))));
+    constexpr int dpi = 72;  // font sizes are pixels then
+    use_font(*style, font, pixels, is_bold, dpi);
     vtkNew<vtkImageData> image;
     int size[2] = {0, 0};
-    constexpr int dpi = 72;  // font sizes are pixels then
     Glyph glyph;
     if (!vtkTextRenderer::GetInstance()->RenderString(style, std::string(1, character), image, size, dpi)) return glyph;
     glyph.width = std::min(size[0], image->GetDimensions()[0]);
@@ -114,6 +112,13 @@ void NumberLabels::set_colors(const Color& background, const Color& foreground, 
     is_stale_ = true;
 }
 
+void NumberLabels::set_font(const TextFont& font) {
+    if (font == font_) return;
+    font_ = font;
+    digits_ratio_ = 0.0;
+    is_stale_ = true;
+}
+
 void NumberLabels::set_labels(std::vector<NumberLabel> labels) {
     if (labels.empty() && labels_.empty()) return;
     labels_ = std::move(labels);
@@ -131,7 +136,7 @@ void NumberLabels::make_digits(double pixel_ratio) {
         advance_[kind] = 0;
         for (int i = 0; i < character_count; ++i) {
             Glyph& glyph = glyphs[kind][static_cast<std::size_t>(i)];
-            glyph = render_glyph(characters[i], digit_size * pixel_ratio, kind == 1);
+            glyph = render_glyph(characters[i], font_, digit_size * pixel_ratio, kind == 1);
             advance_[kind] = std::max(advance_[kind], glyph.width);
             for (int y = 0; y < glyph.height; ++y)
                 for (int x = 0; x < glyph.width; ++x)
