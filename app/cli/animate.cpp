@@ -108,6 +108,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                       options.frames);
     MeshScene scene;
     SceneOptions scene_options;
+    scene_options.font = find_text_font();
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     scene_options.show_legend = options.shows_legend;
     scene.set_options(scene_options);

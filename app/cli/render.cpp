@@ -46,6 +46,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const Stopwatch rendering;
     MeshScene scene;
     SceneOptions scene_options = options.scene;
+    scene_options.font = find_text_font();
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     if (ClipPlane* clip = scene_options.clip ? &*scene_options.clip : nullptr; clip && options.clip_position) {
         const bool is_flipped = clip->normal[0] + clip->normal[1] + clip->normal[2] < 0.0;

@@ -57,6 +57,8 @@ struct ColorsUnderTest : DragUnderTest {
         drag_node(node_at(0.5, 0.0), way);
     }
     ColorBar& bar() { return *find<ColorBar>("color_bar"); }
+    /// In the window.
+    QRect place(const QWidget& widget) { return {widget.mapTo(window.get(), QPoint()), widget.size()}; }
     void show_bar() {
         view().setFocus();
         QTest::keyClick(&view(), Qt::Key_K);
@@ -350,12 +352,38 @@ class ColorsTest : public QObject {
         auto* clip = test.find<ClipBar>("clip_bar");
         QVERIFY(clip->isVisible());
         QVERIFY(!clip->geometry().intersects(test.bar().geometry()));
-        for (QWidget* name : test.view().findChildren<QWidget*>(QStringLiteral("view_name"))) {
-            QVERIFY(!name->geometry().intersects(clip->geometry()));
-            QVERIFY(!name->geometry().intersects(test.bar().geometry()));
+        for (QWidget* name : test.window->findChildren<QWidget*>(QStringLiteral("view_name"))) {
+            QVERIFY(!test.place(*name).intersects(test.place(*clip)));
+            QVERIFY(!test.place(*name).intersects(test.place(test.bar())));
         }
         test.window->action(CommandId::clip)->trigger();
         QVERIFY(!clip->isVisible() && test.bar().y() < 60);
+    }
+
+    void bars_leave_the_legend_free() {
+        ColorsUnderTest test;
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        test.window->resize(1280, 800);
+        test.show_bar();
+        test.window->action(CommandId::clip)->trigger();
+        auto* clip = test.find<QWidget>("clip_bar");
+        auto* field = test.find<QWidget>("color_lower");
+        for (const bool is_split : {false, true, false}) {
+            field->setFocus();
+            test.window->action(CommandId::compare)->setChecked(is_split);
+            QTest::qWait(60);
+            // Where the legend stands, which is the last view's alone.
+            const QRect view = test.place(test.view());
+            const QRect legend = view.adjusted(test.view().free_area().toRect().width(), 0, 0, 0);
+            QVERIFY(legend.width() > 80 && legend.width() < 200);
+            for (const QWidget* bar : {clip, static_cast<QWidget*>(&test.bar())}) {
+                QVERIFY(bar->isVisible());
+                QVERIFY(!test.place(*bar).intersects(legend));
+                QVERIFY(bar->parentWidget()->rect().contains(bar->geometry()));
+            }
+            QVERIFY(!clip->geometry().intersects(test.bar().geometry()));
+            QCOMPARE(test.window->focusWidget(), field);
+        }
     }
 
     void both_views_have_one_scale() {

@@ -43,7 +43,7 @@ class DocumentTest : public QObject {
     void history_walks_states() {
         MeshDocument document;
         const CurvedMesh square = square_mesh(2, 2);
-        document.open({state_of(square), QStringLiteral("/folder/square.msh"), {}});
+        document.open({state_of(square), QStringLiteral("/folder/square.msh"), {}, nullptr});
         QVERIFY(!document.is_dirty());
         QCOMPARE(document.file_name(), QStringLiteral("square.msh"));
 
@@ -71,7 +71,7 @@ class DocumentTest : public QObject {
     void saving_and_opening_settle_the_dirty_mark() {
         MeshDocument document;
         const CurvedMesh square = square_mesh(2, 2);
-        document.open({state_of(square), QStringLiteral("a.msh"), {}});
+        document.open({state_of(square), QStringLiteral("a.msh"), {}, nullptr});
         document.apply(QStringLiteral("step"), state_of(moved(square, 1.0)), FlipAction{});
         QSignalSpy dirty(&document, &MeshDocument::dirty_changed);
         document.mark_saved(QStringLiteral("b.msh"));
@@ -80,7 +80,7 @@ class DocumentTest : public QObject {
         document.history()->undo();
         QVERIFY(document.is_dirty());
         QCOMPARE(dirty.count(), 2);
-        document.open({state_of(square), QStringLiteral("c.msh"), {}});
+        document.open({state_of(square), QStringLiteral("c.msh"), {}, nullptr});
         QVERIFY(!document.is_dirty());
         QCOMPARE(document.history()->count(), 0);
         QVERIFY(!document.history()->canUndo());

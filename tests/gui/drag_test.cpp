@@ -59,6 +59,9 @@ class DragTest : public QObject {
         QVERIFY(minimum.startsWith(QStringLiteral("min 0.")));
         QVERIFY(test.text("after_figures").startsWith(minimum));
         QVERIFY(test.text("mesh_minimum").endsWith(minimum.mid(4)));
+        auto* worst = test.find<QTreeWidget>("worst_elements");
+        QCOMPARE(worst->topLevelItem(0)->text(1), minimum.mid(4));
+        const QString worst_live = worst->topLevelItem(0)->text(0);
         QCOMPARE(test.text("pointer_validity"), QStringLiteral("✓ all proved valid"));
         test.let_go();
         QVERIFY(!test.find<QWidget>("pointer_tag")->isVisible());
@@ -74,6 +77,10 @@ class DragTest : public QObject {
         const QualityReport fresh = assess_quality(*test.document().state().mesh);
         QCOMPARE(test.document().state().quality->summary.min, fresh.summary.min);
         QVERIFY(test.text("after_figures").startsWith(minimum));
+        QCOMPARE(worst->topLevelItem(0)->text(0), worst_live);
+        for (int row = 0; row < 10; ++row)
+            QCOMPARE(worst->topLevelItem(row)->text(0),
+                     QString::number(test.topology().element_tag(fresh.worst(10)[std::size_t(row)]).value));
 
         // One step of the history, with a name; undo is exact.
         QUndoStack& history = *test.document().history();
@@ -91,13 +98,23 @@ class DragTest : public QObject {
         DragUnderTest test;
         const Coordinates opened = test.positions();
         const QString before = test.text("after_figures");
+        auto* worst = test.find<QTreeWidget>("worst_elements");
+        const auto rows = [worst] {
+            QStringList list;
+            for (int row = 0; row < worst->topLevelItemCount(); ++row)
+                list << worst->topLevelItem(row)->text(0) + worst->topLevelItem(row)->text(1);
+            return list;
+        };
+        const QStringList rows_before = rows();
         const QImage untouched = test.view().picture(1);
         test.take(test.node_at(0.5, 0.0));
         test.move_by({0, -60});
         QVERIFY(test.text("after_figures") != before);
+        QVERIFY(rows() != rows_before);
         QTest::keyClick(&test.view(), Qt::Key_Escape);
         QVERIFY(!test.drag().is_active());
         QCOMPARE(test.text("after_figures"), before);
+        QCOMPARE(rows(), rows_before);
         QVERIFY(test.text("mesh_minimum").endsWith(QStringLiteral("1.00")));
         QCOMPARE(test.positions(), opened);
         QCOMPARE(test.document().history()->count(), 0);
@@ -108,6 +125,31 @@ class DragTest : public QObject {
         QCOMPARE(test.document().history()->count(), 0);
         test.point_at({5, 5});
         QVERIFY(is_alike(test.view().picture(1), untouched));
+    }
+
+    void the_tag_leaves_the_legend_free() {
+        DragUnderTest test;
+        test.window->resize(1280, 800);
+        for (const bool is_split : {false, true}) {
+            test.window->action(CommandId::compare)->setChecked(is_split);
+            QTest::qWait(100);
+            test.take(test.node_at(1.0, 0.5));
+            auto* tag = test.window->findChild<QWidget*>(QStringLiteral("pointer_tag"));
+            const int right = test.view().free_area().toRect().right();
+            // Into the legend, from the top to the bottom.
+            test.move_by({test.view().width() - 30 - test.mouse.x(), 20 - test.mouse.y()});
+            for (int step = 0; step < 5; ++step) {
+                QVERIFY(test.mouse.x() > right);
+                QVERIFY(tag->isVisible());
+                QVERIFY2(tag->geometry().right() <= right,
+                         qPrintable(QStringLiteral("%1 %2").arg(tag->geometry().right()).arg(right)));
+                QVERIFY(test.view().rect().contains(tag->geometry()));
+                QVERIFY(!tag->geometry().contains(test.mouse));
+                test.move_by({0, test.view().height() / 5 - 5});
+            }
+            QTest::keyClick(&test.view(), Qt::Key_Escape);
+            QTest::mouseRelease(&test.view(), Qt::LeftButton, {}, test.mouse);
+        }
     }
 
     void frames_drawn_behind_are_the_same_frames() {

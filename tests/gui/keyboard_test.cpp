@@ -3,7 +3,9 @@
 #include <set>
 
 #include <QAbstractButton>
+#include <QAbstractItemView>
 #include <QAction>
+#include <QComboBox>
 #include <QDialog>
 #include <QLabel>
 #include <QLineEdit>
@@ -15,6 +17,7 @@
 #include <QTabWidget>
 #include <QTreeWidget>
 #include <QUndoView>
+#include <QWindow>
 
 #include "tests/gui/drag_under_test.h"
 #include "ui/document/tag_query.h"
@@ -293,6 +296,32 @@ class KeyboardTest : public QObject {
         QVERIFY(!test.frame()->isVisible());
     }
 
+    void letters_typed_into_an_open_list_are_no_shortcuts() {
+        KeyboardUnderTest test;
+        test.window->show_tab(QStringLiteral("edit"));
+        auto* box = test.find<QComboBox>("falloff");
+        QAction* select = test.window->action(CommandId::tool_select);
+        QAction* edges = test.window->action(CommandId::edges);
+        const bool has_edges = edges->isChecked();
+        QVERIFY(!select->isChecked());
+        box->setCurrentIndex(0);
+        box->setFocus();
+        box->showPopup();
+        QTRY_VERIFY(QApplication::activePopupWidget());
+        // As a window manager has it: the keys go to the window, which passes them on to the list.
+        QTest::keyClick(test.window->windowHandle(), Qt::Key_S);
+        QVERIFY(!select->isChecked());
+        QCOMPARE(box->view()->currentIndex().data().toString().left(1), QStringLiteral("S"));
+        QTest::keyClick(test.window->windowHandle(), Qt::Key_E);
+        QCOMPARE(edges->isChecked(), has_edges);
+        QTest::keyClick(test.window->windowHandle(), Qt::Key_Escape);
+        QTRY_VERIFY(!QApplication::activePopupWidget());
+        QCOMPARE(box->currentIndex(), 0);
+        // Closed, they are shortcuts again.
+        QTest::keyClick(&test.view(), Qt::Key_S);
+        QVERIFY(select->isChecked());
+    }
+
     void one_key_goes_round_the_areas() {
         KeyboardUnderTest test;
         test.view().setFocus();
@@ -301,7 +330,8 @@ class KeyboardTest : public QObject {
             const QWidget* now = test.window->focusWidget();
             const auto* area = test.find<QWidget>(name);
             return now && (now == area || area->isAncestorOf(now) ||
-                           (qstrcmp(name, "before_histogram") == 0 && now->objectName() == u"compare_with"));
+                           (qstrcmp(name, "before_histogram") == 0 && now->objectName() == u"compare_with") ||
+                           (qstrcmp(name, "worst_elements") == 0 && now->objectName() == u"worst_count"));
         };
         for (const char* area : areas) {
             QTest::keyClick(test.window->focusWidget(), Qt::Key_F6);

@@ -4,6 +4,8 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QSettings>
+#include <QSpinBox>
+#include <QTreeWidget>
 
 #include "tests/gui/drag_under_test.h"
 
@@ -95,6 +97,35 @@ class LookingTest : public QObject {
         QVERIFY(!test.before_view().isVisible());
     }
 
+    void what_was_seen_is_seen_in_half_the_width() {
+        LookingUnderTest test;
+        const auto from_middle = [&](double x, double y) {
+            return test.view().to_display(Eigen::RowVector3d(x, y, 0.0)) - test.view().free_area().center();
+        };
+        const auto is_near = [](QPointF a, QPointF b) { return (a - b).manhattanLength() < 3.0; };
+        // Fitted: fitted again.
+        test.toggle(CommandId::compare);
+        QTest::qWait(300);
+        QVERIFY(test.view().keeps_fitted());
+        test.toggle(CommandId::compare);
+        QVERIFY(test.view().keeps_fitted());
+        // Moved: what was seen stays where it was, smaller, and comes back.
+        QTest::keyClick(&test.view(), Qt::Key_Right);
+        QTest::keyClick(&test.view(), Qt::Key_Up);
+        QTest::qWait(60);
+        QVERIFY(!test.view().keeps_fitted());
+        const QPointF whole = from_middle(1.0, 0.0);
+        const double width = test.view().free_area().width();
+        test.toggle(CommandId::compare);
+        const double share = test.view().free_area().width() / width;
+        QVERIFY(share < 0.5);
+        QTRY_VERIFY(is_near(from_middle(1.0, 0.0), whole * share));
+        const ViewPose there = test.view().pose();
+        QTRY_COMPARE(test.before_view().pose().scale, there.scale);
+        test.toggle(CommandId::compare);
+        QTRY_VERIFY(is_near(from_middle(1.0, 0.0), whole));
+    }
+
     void shrunk_elements_leave_gaps_and_still_move() {
         LookingUnderTest test;
         const int whole = LookingUnderTest::drawn(test.view().picture(1));
@@ -149,6 +180,51 @@ class LookingTest : public QObject {
         test.toggle(CommandId::worst_only);
         for (Index element = 0; element < test.topology().element_count(); ++element)
             QVERIFY(test.view().draws_element(element));
+    }
+
+    void as_many_of_the_worst_as_wanted() {
+        {
+            LookingUnderTest test;
+            test.drag_node(test.node_at(0.5, 0.0), {0, -40});
+            test.toggle(CommandId::worst_only);
+            auto* count = test.find<QSpinBox>("worst_count");
+            auto* table = test.find<QTreeWidget>("worst_elements");
+            QCOMPARE(count->value(), 10);
+            count->selectAll();
+            // Half a number is none yet.
+            QTest::keyClicks(count, QStringLiteral("17"));
+            QCOMPARE(table->topLevelItemCount(), 10);
+            QTest::keyClick(count, Qt::Key_Return);
+            for (const int wanted : {17, 3}) {
+                count->setValue(wanted);
+                const auto worst = test.document().state().quality->worst(std::size_t(wanted));
+                QCOMPARE(table->topLevelItemCount(), wanted);
+                for (int row = 0; row < wanted; ++row)
+                    QCOMPARE(table->topLevelItem(row)->text(0),
+                             QString::number(test.topology().element_tag(worst[std::size_t(row)]).value));
+                for (Index element = 0; element < test.topology().element_count(); ++element)
+                    QCOMPARE(test.view().draws_element(element), std::count(worst.begin(), worst.end(), element) == 1);
+            }
+            // More than there are: all.
+            count->setValue(1000);
+            QCOMPARE(table->topLevelItemCount(), int(test.topology().element_count()));
+            // A bookmark knows how many it showed.
+            count->setValue(3);
+            test.window->action(CommandId::bookmark_add)->trigger();
+            count->setValue(5);
+            test.find<QAction>("bookmark_1")->trigger();
+            QCOMPARE(count->value(), 3);
+            test.document().mark_unchanged();
+        }
+        LookingUnderTest later;
+        QCOMPARE(later.find<QSpinBox>("worst_count")->value(), 3);
+        QCOMPARE(later.find<QTreeWidget>("worst_elements")->topLevelItemCount(), 3);
+        later.toggle(CommandId::worst_only);
+        int drawn = 0;
+        for (Index element = 0; element < later.topology().element_count(); ++element)
+            drawn += later.view().draws_element(element);
+        QCOMPARE(drawn, 3);
+        later.toggle(CommandId::worst_only);
     }
 };
 

@@ -246,6 +246,7 @@ class PreferencesTest : public QObject {
             for (const char* key : {"preferences/start",
                                     "preferences/mouse",
                                     "preferences/recent_count",
+                                    "preferences/worst_count",
                                     "preferences/keeps_work",
                                     "preferences/soft_radius_percent",
                                     "edit/unit",

@@ -52,9 +52,10 @@ TEST(ColorMap, PartsOfAMapAreToldApartByEverySight) {
         for (const auto sight : sights)
             for (int i = 0; i < 6; ++i)
                 for (int j = i + 1; j <= 6; ++j)
-                    if (!(map == ColorMap::balance && i > 0 && j < 6))
+                    if (!(map == ColorMap::balance && i > 0 && j < 6)) {
                         EXPECT_GT(color_difference(seen(map, i / 6.0, sight), seen(map, j / 6.0, sight)), 8.0)
                             << to_string(map) << " " << i << " " << j;
+                    }
     for (const auto sight : sights)
         for (int i = 0; i < 3; ++i)
             EXPECT_GT(color_difference(seen(ColorMap::balance, i / 6.0, sight),

@@ -8,6 +8,7 @@
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_window.h"
 #include "ui/scene/offscreen.h"
+#include "ui/scene/text_font.h"
 
 namespace curvewright {
 namespace {
@@ -135,6 +136,39 @@ TEST(Numbers, StandOnTheSectionAndNotBeyondIt) {
     EXPECT_GE(at_its_place, on_section - 3);
 }
 
+TEST(Numbers, AreFewerWithRoomAroundThemWhereThereAreMany) {
+    Window its(make_ring());
+    its.scene.set_options(numbers(true, false));
+    its.scene.look(ViewDirection::fit);
+    double share = 1.0;  // of the nodes in the view, at the last size
+    std::vector<double> shares;
+    for (int step = 0; step < 4; ++step) {
+        its.frame_start();
+        const Shown shown = its.scene.shown_numbers();
+        ASSERT_FALSE(shown.empty());
+        expect_apart(shown, width);
+        shares.push_back(double(shown.size()) / double(its.mesh.topology().node_count()));
+        EXPECT_LE(shares.back(), share + 1e-9);
+        share = shares.back();
+        if (step == 3) {
+            // All on the same side of their nodes, and apart by more than a digit.
+            for (std::size_t i = 0; i < shown.size(); ++i) {
+                const auto node = its.mesh.topology().find_node({shown[i].tag});
+                const auto place = its.display(its.mesh.coordinates().row(*node));
+                EXPECT_GE(shown[i].box[0], place[0] - 1.0);
+                EXPECT_GE(shown[i].box[1], place[1] - 1.0);
+                for (std::size_t j = 0; j < i; ++j) {
+                    const auto &a = shown[i].box, &b = shown[j].box;
+                    EXPECT_GE(std::max({a[0] - b[2], b[0] - a[2], a[1] - b[3], b[1] - a[3]}), 8);
+                }
+            }
+        }
+        its.at(0.5 * width, 0.5 * height);
+        for (int notch = 0; notch < 3; ++notch) its.interactor->InvokeEvent(vtkCommand::MouseWheelBackwardEvent);
+    }
+    EXPECT_LT(shares.back(), 0.3 * shares.front());
+}
+
 TEST(Numbers, FollowAMotion) {
     Window its(make_ring());
     its.scene.set_options(numbers(true, false));
@@ -189,6 +223,37 @@ TEST(Numbers, AreLegibleOnEveryGroundAndAtEverySize) {
             EXPECT_EQ(legible, static_cast<int>(shown.size())) << is_dark << ratio;
             EXPECT_NEAR(tall / ratio, 12.5, 3.0);
         }
+}
+
+TEST(Text, IsWholeInTheFontOfTheWindowAndInVtks) {
+    const CurvedMesh mesh = make_ring();
+    const QualityReport report = make_report(mesh, {tangled_ring_element});
+    for (const TextFont& font : {TextFont(), find_text_font()}) {
+        MeshScene scene;
+        SceneOptions options = numbers(true, true);
+        options.font = font;
+        scene.set_options(options);
+        scene.set_mesh(&mesh, &report);
+        const auto file = temporary_picture("font");
+        render_png(scene, width, height, file);
+        const Image image = read_image(file);
+        // Dark pixels of the legend, right of its bar: there are some, and none at the picture's edge.
+        int ink = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = width - 80; x < width; ++x) {
+                const auto* pixel = image.pixel(x, y);
+                if (pixel[0] > 150 || pixel[1] > 150 || pixel[2] > 150) continue;
+                ++ink;
+                EXPECT_LT(x, width - 2) << font.regular << " " << y;
+            }
+        EXPECT_GT(ink, 200) << font.regular;
+    }
+    // Both files are there, or neither is asked for.
+    const TextFont found = find_text_font();
+    EXPECT_EQ(found.regular.empty(), found.bold.empty());
+    if (!found.regular.empty()) {
+        EXPECT_TRUE(std::filesystem::is_regular_file(found.regular) && std::filesystem::is_regular_file(found.bold));
+    }
 }
 
 }  // namespace

@@ -18,6 +18,8 @@ Preferences Preferences::load() {
     bool is_number = false;
     if (const int count = settings.value(QStringLiteral("preferences/recent_count")).toInt(&is_number); is_number)
         p.recent_count = std::clamp(count, 0, most_recent);
+    if (const int count = settings.value(QStringLiteral("preferences/worst_count")).toInt(&is_number); is_number)
+        p.worst_count = std::clamp(count, 1, most_worst);
     read_bool("preferences/keeps_work", p.keeps_work);
     read_bool("preferences/remembers_tool", p.remembers_tool);
     read_bool("preferences/remembers_drawing", p.remembers_drawing);
@@ -43,6 +45,7 @@ void Preferences::store() const {
     settings.setValue(QStringLiteral("preferences/starts_with_nodes"), starts_with_nodes);
     settings.setValue(QStringLiteral("preferences/starts_with_legend"), starts_with_legend);
     settings.setValue(QStringLiteral("preferences/wheel_is_reversed"), wheel_is_reversed);
+    settings.setValue(QStringLiteral("preferences/worst_count"), worst_count);
     settings.setValue(QStringLiteral("preferences/soft_radius_percent"), soft_radius_percent);
 }
 

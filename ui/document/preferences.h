@@ -28,9 +28,10 @@ struct Preferences {
     bool starts_with_legend = true;
     bool wheel_is_reversed = false;  ///< the wheel towards the user comes closer
     MouseHabits mouse = MouseHabits::curvewright;
+    int worst_count = 10;  ///< elements in the table of the worst, and shown where only they are: 1 .. most_worst
     double soft_radius_percent = 8.0;  ///< of the mesh's diagonal: the radius of the soft selection at first
 
-    static constexpr int most_recent = 30;
+    static constexpr int most_recent = 30, most_worst = 1000;
 
     static Preferences load();
     void store() const;

@@ -6,6 +6,7 @@
 #include <QKeyEvent>
 #include <QLineEdit>
 #include <QListWidget>
+#include <QPixmap>
 #include <QVBoxLayout>
 
 namespace curvewright {
@@ -68,11 +69,15 @@ void CommandPalette::list_matches() {
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
     list_->clear();
+    // Names stand below each other, with an icon before them or without.
+    QPixmap nothing(list_->iconSize().isValid() ? list_->iconSize() : QSize(16, 16));
+    nothing.fill(Qt::transparent);
     for (const auto& [score, command] : found) {
         const QString keys = actions_[command->id]->shortcut().toString(QKeySequence::NativeText);
         QString text = plain_text(*command);
         if (!keys.isEmpty()) text += QStringLiteral("    ") + keys;
-        auto* item = new QListWidgetItem(actions_[command->id]->icon(), text, list_);
+        const QIcon icon = actions_[command->id]->icon();
+        auto* item = new QListWidgetItem(icon.isNull() ? QIcon(nothing) : icon, text, list_);
         item->setToolTip(help_text(*command));
         item->setData(Qt::UserRole, static_cast<int>(command->id));
     }

@@ -69,7 +69,7 @@ const Command command_list[] = {
     {CommandId::nodes, CommandMenu::view, "nodes", TEXT("&Nodes"), TEXT("Show the nodes"), "nodes", "N", true, false, 5},
     {CommandId::clip, CommandMenu::view, "clip", TEXT("&Cut open"), TEXT("Hide the elements on one side of a plane (3D)"), "clip", "C", true, false, 5},
     {CommandId::shrink, CommandMenu::view, "shrink", TEXT("&Shrink elements"), TEXT("Leave gaps between the elements"), "shrink", "F3", true, false, 5},
-    {CommandId::worst_only, CommandMenu::view, "worst_only", TEXT("Only the &worst"), TEXT("Show the ten elements of the lowest scaled Jacobian alone"), "worst", "W", true, false, 5},
+    {CommandId::worst_only, CommandMenu::view, "worst_only", TEXT("Only the &worst"), TEXT("Show the elements of the lowest scaled Jacobian alone, as many as stand in their table"), "worst", "W", true, false, 5},
     {CommandId::compare, CommandMenu::view, "compare", TEXT("&Before and now"), TEXT("Show the mesh before and after the last step side by side"), "compare", "B", true, false, 5},
     {CommandId::legend, CommandMenu::view, "legend", TEXT("&Legend"), TEXT("Show the scale of colours"), "legend", "L", true, false, 5},
     {CommandId::node_numbers, CommandMenu::view, "node_numbers", TEXT("N&ode numbers"), TEXT("Write the tags of the nodes beside them"), "node_numbers", "Ctrl+Shift+N", true, true},
@@ -121,8 +121,7 @@ QString tool_tip(const Command& command, const QString& key, const QString& name
     return QStringLiteral("<p style='margin:0'>%1</p><p style='margin:0'>%2</p>").arg(head, text);
 }
 
-CommandActions::CommandActions(const Theme& theme, QObject* parent)
-    : QObject(parent), shortcuts_(new Shortcuts(this)) {
+CommandActions::CommandActions(const Theme& theme, QObject* parent) : QObject(parent), shortcuts_(new Shortcuts(this)) {
     for (const Command& command : commands()) {
         auto* action = new QAction(translated(command.text), parent);
         action->setObjectName(QLatin1String(command.name));

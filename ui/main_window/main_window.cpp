@@ -192,6 +192,13 @@ void MainWindow::connect_panels() {
     connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
     connect(worst_table_, &WorstTable::element_chosen, this,
             [this](Index element) { select_elements({element}, true); });
+    connect(worst_table_, &WorstTable::count_changed, this, [this](int count) {
+        if (count == preferences_.worst_count) return;
+        preferences_ = Preferences::load();
+        preferences_.worst_count = count;
+        preferences_.store();
+        if (actions_[CommandId::worst_only]->isChecked()) update_options();
+    });
     connect(quality_panel_, &QualityPanel::elements_chosen, this,
             [this](const std::vector<Index>& elements) { select_elements(elements, false); });
     connect(quality_panel_, &QualityPanel::export_requested, actions_[CommandId::export_quality], &QAction::trigger);
@@ -318,6 +325,8 @@ void MainWindow::update_options() {
     options.show_node_numbers = actions_[CommandId::node_numbers]->isChecked();
     options.show_element_numbers = actions_[CommandId::element_numbers]->isChecked();
     options.is_orthographic = actions_[CommandId::orthographic]->isChecked();
+    static const TextFont font = find_text_font();
+    options.font = font;
     options.background = to_color(theme_.color(QStringLiteral("view")));
     options.foreground = to_color(theme_.color(QStringLiteral("text")));
     options.edge_color = to_color(theme_.color(QStringLiteral("view_edge")));
@@ -325,7 +334,7 @@ void MainWindow::update_options() {
     options.only_elements.reset();
     const auto& quality = document_.state().quality;
     if (quality && actions_[CommandId::worst_only]->isChecked())
-        options.only_elements = quality->worst(WorstTable::max_rows);
+        options.only_elements = quality->worst(static_cast<std::size_t>(preferences_.worst_count));
     options.clip.reset();
     if (is_clipped) {
         const ClipSetting setting = clip_bar_->setting();
@@ -402,7 +411,7 @@ void MainWindow::show_tab(const QString& name) {
 }
 
 bool MainWindow::eventFilter(QObject* watched, QEvent* event) {
-    if (watched == view_ && event->type() == QEvent::Resize) place_bars();
+    if ((watched == view_ || watched == before_view_) && event->type() == QEvent::Resize) place_bars();
     return QMainWindow::eventFilter(watched, event);
 }
 

@@ -122,6 +122,8 @@ class MainWindow : public QMainWindow {
     void show_verdict(const QualitySummary& summary);
     /// The view of the state before the last step, if it is wanted.
     void show_before();
+    /// Makes room for it, or takes the room back.
+    void split_view(bool is_split);
 
     // main_window_colors.cpp
     void connect_colors();

@@ -2,6 +2,7 @@
 
 #include <QAction>
 #include <QLabel>
+#include <QPointer>
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
@@ -111,15 +112,25 @@ void MainWindow::show_coloring() {
 }
 
 void MainWindow::place_bars() {
+    // Beside each other the views are narrow: the bars go where no legend is.
+    QWidget* view = actions_[CommandId::compare]->isChecked() && document_.has_mesh() ? before_view_ : view_;
+    for (QWidget* bar : {static_cast<QWidget*>(clip_bar_), static_cast<QWidget*>(color_bar_)}) {
+        if (bar->parentWidget() == view) continue;
+        const bool is_shown = !bar->isHidden();
+        QPointer<QWidget> focus = bar->isAncestorOf(focusWidget()) ? focusWidget() : nullptr;
+        bar->setParent(view);
+        bar->setVisible(is_shown);
+        if (focus) focus->setFocus();
+    }
     int top = 12;
-    for (QLabel* name : view_->findChildren<QLabel*>(QStringLiteral("view_name")))
+    for (QLabel* name : view->findChildren<QLabel*>(QStringLiteral("view_name")))
         if (!name->isHidden()) top = name->geometry().bottom() + 9;
     constexpr int margin = 12, room_for_slider = 80;
     for (QWidget* bar : {static_cast<QWidget*>(clip_bar_), static_cast<QWidget*>(color_bar_)}) {
         bar->adjustSize();
         if (bar == clip_bar_) {
             const QSize least = bar->minimumSizeHint();
-            bar->resize(std::clamp(view_->width() - 2 * margin, least.width(), least.width() + room_for_slider),
+            bar->resize(std::clamp(view->width() - 2 * margin, least.width(), least.width() + room_for_slider),
                         least.height());
         }
         bar->move(margin, top);

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include <QAction>
 #include <QActionGroup>
 #include <QLabel>
@@ -16,6 +18,7 @@
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/selection_panel.h"
 #include "ui/panels/widgets.h"
+#include "ui/panels/worst_table.h"
 #include "ui/tools/drag_tool.h"
 #include "ui/tools/look_tool.h"
 #include "ui/tools/pin_tool.h"
@@ -64,6 +67,7 @@ void MainWindow::connect_editing() {
         view_->show_state(document_.state());
         quality_panel_->show_state();
         mesh_panel_->show_state();
+        worst_table_->show_state();
         if (document_.state().quality) show_verdict(document_.state().quality->summary);
     });
     connect(&drag_, &LiveDrag::failed, this,
@@ -103,11 +107,7 @@ void MainWindow::connect_editing() {
     };
     connect(warp_panel_, &OperationPanel::refreshed, this, use_weights);
     use_weights();
-    connect(actions_[CommandId::compare], &QAction::toggled, this, [this](bool is_on) {
-        show_before();
-        // Two halves, for the first time and whenever the window has changed in between.
-        if (is_on) static_cast<QSplitter*>(view_->parentWidget())->setSizes({1000, 1000});
-    });
+    connect(actions_[CommandId::compare], &QAction::toggled, this, &MainWindow::split_view);
     connect(view_, &MeshView::camera_moved, this, [this] {
         if (before_view_->isVisible()) before_view_->follow_camera(*view_);
     });
@@ -155,10 +155,12 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
     const QualitySummary& summary = quality->summary;
     show_verdict(summary);
     mesh_panel_->show_quality(summary);
+    worst_table_->show_live(*quality);
     QString validity = describe_validity(summary);
     if (summary.invalid > 0)
         validity += tr(", worst: element %1")
                         .arg(document_.state().mesh->topology().element_tag(quality->worst(1).front()).value);
+    pointer_tag_->set_room(view_->free_area().toRect());
     pointer_tag_->show_quality(tr("min %1").arg(format_number(summary.min)), validity,
                                summary.invalid > 0     ? "alarm"
                                : summary.undecided > 0 ? "warning"
@@ -168,6 +170,7 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
 
 void MainWindow::show_before() {
     const bool is_wanted = actions_[CommandId::compare]->isChecked() && document_.has_mesh();
+    if (!is_wanted) place_bars();  // with the keyboard, if that is there
     before_view_->setVisible(is_wanted);
     for (QLabel* name : view_page_->findChildren<QLabel*>(QStringLiteral("view_name"))) name->setVisible(is_wanted);
     place_bars();
@@ -177,6 +180,19 @@ void MainWindow::show_before() {
     }
     before_view_->show_state(document_.before());
     before_view_->follow_camera(*view_);
+}
+
+void MainWindow::split_view(bool is_split) {
+    const double width = view_->free_area().width();
+    show_before();
+    auto* views = static_cast<QSplitter*>(view_->parentWidget());
+    // Two halves, for the first time and whenever the window has changed in between.
+    if (is_split) views->setSizes({1000, 1000});
+    views->refresh();
+    // A view that is fitted is so again; of another one all that was seen from left to right is seen again.
+    const double factor = width / view_->free_area().width();
+    if (view_->keeps_fitted() || !document_.has_mesh() || !std::isfinite(factor)) return;
+    view_->widen(factor);
 }
 
 void MainWindow::show_verdict(const QualitySummary& summary) {

@@ -151,6 +151,7 @@ void MainWindow::apply_preferences() {
     view_->set_mouse_map(map);
     before_view_->set_mouse_map(map);
     journal_->set_keeping(preferences_.keeps_work);
+    worst_table_->set_count(preferences_.worst_count);
 }
 
 }  // namespace curvewright

@@ -158,7 +158,7 @@ void MainWindow::build_center() {
     clip_bar_->hide();
     color_bar_ = new ColorBar(document_, theme_, view_);
     color_bar_->hide();
-    view_->installEventFilter(this);
+    for (MeshView* view : {view_, before_view_}) view->installEventFilter(this);
 
     center_ = new QStackedWidget;
     center_->addWidget(start_page_);

@@ -11,6 +11,7 @@
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/clip_bar.h"
+#include "ui/panels/worst_table.h"
 
 namespace curvewright {
 namespace {
@@ -76,6 +77,7 @@ void MainWindow::add_bookmark() {
     if (name.isEmpty()) return;
     QJsonObject shown;
     for (const CommandId id : shown_commands) shown[actions_[id]->objectName()] = actions_[id]->isChecked();
+    shown[QStringLiteral("worst_count")] = preferences_.worst_count;
     const ClipSetting cut = clip_bar_->setting();
     shown[QStringLiteral("cut")] = QJsonObject{{QStringLiteral("axis"), cut.axis},
                                                {QStringLiteral("flipped"), cut.is_flipped},
@@ -96,6 +98,9 @@ void MainWindow::go_to_bookmark(int number) {
         clip_bar_->set_setting({cut[QStringLiteral("axis")].toInt(), cut[QStringLiteral("flipped")].toBool(),
                                 cut[QStringLiteral("position")].toDouble(0.5),
                                 cut[QStringLiteral("through")].toBool()});
+    if (const int count = bookmark.shown[QStringLiteral("worst_count")].toInt();
+        count > 0 && bookmark.shown[actions_[CommandId::worst_only]->objectName()].toBool())
+        worst_table_->set_count(count);
     for (const CommandId id : shown_commands) {
         const QJsonValue is_shown = bookmark.shown[actions_[id]->objectName()];
         if (is_shown.isBool() && actions_[id]->isEnabled()) actions_[id]->setChecked(is_shown.toBool());

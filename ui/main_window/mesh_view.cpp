@@ -21,6 +21,7 @@
 #include <vtkRenderer.h>
 
 #include "ui/main_window/picture_drawing.h"
+#include "ui/scene/camera_control.h"
 #include "ui/scene/interactor_style.h"
 #include "ui/tools/tool.h"
 
@@ -203,6 +204,10 @@ void MeshView::follow_camera(const MeshView& other) {
     parts_->scene.copy_view(other.parts_->scene, true);
     parts_->told_pose = CameraPose::of(parts_->scene.renderer()->GetActiveCamera());
     request_frame();
+}
+
+bool MeshView::keeps_fitted() const {
+    return parts_->scene.camera_state().keeps_fitted;
 }
 
 bool MeshView::draws_element(Index element) const {
@@ -398,6 +403,17 @@ void MeshView::set_mouse_map(const MouseMap& map) {
 void MeshView::zoom(double factor) {
     parts_->flight.stop();
     camera_style()->zoom_by(factor);
+    if (parts_->tool) parts_->tool->refresh();
+}
+
+void MeshView::widen(double factor) {
+    parts_->flight.stop();
+    vtkCamera* camera = parts_->scene.renderer()->GetActiveCamera();
+    CameraPose pose = CameraPose::of(camera);
+    pose.scale *= factor;
+    for (std::size_t i = 0; i < 3; ++i) pose.position[i] = pose.focus[i] + factor * (pose.position[i] - pose.focus[i]);
+    pose.apply(camera);
+    request_frame();
     if (parts_->tool) parts_->tool->refresh();
 }
 

@@ -61,10 +61,15 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// Closer to the middle of the view (factor > 1).
     void zoom(double factor);
 
+    /// What is in the middle of the free part of the view stays there, `factor` times as much is seen beside it.
+    void widen(double factor);
+
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
     bool draws_element(Index element) const;
+    /// Whether nobody has moved the camera since the mesh was fitted: it will be fitted to other sizes too.
+    bool keeps_fitted() const;
     /// Takes over where another view's camera is.
     void follow_camera(const MeshView& other);
     /// Moves the camera to an element within 200 ms.

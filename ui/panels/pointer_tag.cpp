@@ -1,5 +1,7 @@
 #include "ui/panels/pointer_tag.h"
 
+#include <algorithm>
+
 #include <QLabel>
 #include <QVBoxLayout>
 
@@ -35,13 +37,19 @@ void PointerTag::show_quality(const QString& minimum, const QString& validity, c
     raise();
 }
 
+void PointerTag::set_room(const QRect& room) {
+    room_ = room;
+}
+
 void PointerTag::follow(QPointF position) {
     position_ = position;
     constexpr int distance = 18;
     QPoint corner = position.toPoint() + QPoint(distance, distance);
-    const QSize room = parentWidget()->size();
-    if (corner.x() + width() > room.width()) corner.setX(position.toPoint().x() - distance - width());
-    if (corner.y() + height() > room.height()) corner.setY(position.toPoint().y() - distance - height());
+    if (corner.x() + width() > room_.right()) corner.setX(position.toPoint().x() - distance - width());
+    if (corner.y() + height() > room_.bottom()) corner.setY(position.toPoint().y() - distance - height());
+    // Wherever the pointer is: the legend stays legible. Above or below the pointer there is room.
+    corner.setX(std::max(room_.left(), std::min(corner.x(), room_.right() - width())));
+    corner.setY(std::max(room_.top(), std::min(corner.y(), room_.bottom() - height())));
     move(corner);
 }
 

@@ -132,6 +132,7 @@ void Legend::add_dots(const Box& box, double ratio) {
 
 OverlayText& Legend::next_text() {
     if (used_texts_ == texts_.size()) texts_.push_back(std::make_unique<OverlayText>(renderer_));
+    texts_[used_texts_]->set_font(font_);
     return *texts_[used_texts_++];
 }
 

@@ -42,6 +42,7 @@ class Legend {
     /// No summary: nothing is known about the scaled Jacobian.
     void set_summary(const std::optional<QualitySummary>& summary) { summary_ = summary; }
     void set_colors(const Color& background, const Color& foreground);
+    void set_font(const TextFont& font) { font_ = font; }
     void set_visible(bool is_visible) { is_visible_ = is_visible; }
     /// Width of the strip that the view should leave free, device pixels.
     double width(double pixel_ratio) const;
@@ -75,6 +76,7 @@ class Legend {
     std::optional<QualitySummary> summary_;
     Box panel_{0, 0, 0, 0};
     bool is_visible_ = true;
+    TextFont font_;
     Color background_{1, 1, 1}, foreground_{0, 0, 0};
     vtkNew<vtkActor2D> actor_;
     vtkNew<vtkPolyData> data_;

@@ -191,9 +191,11 @@ struct MeshScene::Parts {
         nodes.set_visible(options.show_nodes);
         legend.set_colors(background, options.foreground);
         legend.set_visible(options.show_legend);
+        legend.set_font(options.font);
         axes.set_colors(background, options.foreground);
         edit_marks.set_colors(background, options.accent, options.foreground);
         numbers.set_colors(background, options.foreground, options.accent);
+        numbers.set_font(options.font);
     }
 
     /// Makes the drawing of the mesh anew, or moves it if nothing but positions has changed.

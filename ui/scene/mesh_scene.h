@@ -12,6 +12,7 @@
 #include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/coloring.h"
+#include "ui/scene/text_font.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkRenderer;
@@ -47,6 +48,7 @@ struct SceneOptions {
     Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
     Color edge_color{0.25, 0.27, 0.30};
     Color accent{0.06, 0.40, 0.95};  ///< selection and handles
+    TextFont font;                   ///< of text, legend and numbers
     double pixel_ratio = 1.0;        ///< device pixels per unit: scales lines, points, text
 };
 

@@ -33,7 +33,11 @@ constexpr double digit_size = 11.5;    ///< units of the pixel ratio
 constexpr double halo_radius = 1.9;    ///< units of the pixel ratio
 constexpr double node_distance = 4.0;  ///< of a node's number from the node, units of the pixel ratio
 constexpr double cell_size = 3.0;      ///< of the grid that tells what is taken, units of the pixel ratio
-constexpr int depth_step = 4;          ///< pixels per sample of what hides numbers
+/// Where there are many numbers for the room that they have, so much stays free around those of nodes at most, units of
+/// the pixel ratio; and the part of the room that they would take up from which on some, and from which on all of that
+/// is.
+constexpr double most_clearance = 12.0, few = 0.6, many = 1.6;
+constexpr int depth_step = 4;  ///< pixels per sample of what hides numbers
 /// Steps of the distance between the nearest and the farthest, and how many of them count as about the same.
 constexpr int depth_steps = 4000, depth_layer = 200;
 /// How far behind the surface a number may be and still be seen, world units: a little more than chords are off.
@@ -59,15 +63,13 @@ struct Glyph {
     }
 };
 
-Glyph render_glyph(char character, double pixels, bool is_bold) {
+Glyph render_glyph(char character, const TextFont& font, double pixels, bool is_bold) {
     vtkNew<vtkTextProperty> style;
-    style->SetFontFamilyToArial();
-    style->SetBold(is_bold);
     style->SetColor(1.0, 1.0, 1.0);
-    style->SetFontSize(std::max(1, static_cast<int>(std::lround(pixels))));
+    constexpr int dpi = 72;  // font sizes are pixels then
+    use_font(*style, font, pixels, is_bold, dpi);
     vtkNew<vtkImageData> image;
     int size[2] = {0, 0};
-    constexpr int dpi = 72;  // font sizes are pixels then
     Glyph glyph;
     if (!vtkTextRenderer::GetInstance()->RenderString(style, std::string(1, character), image, size, dpi)) return glyph;
     glyph.width = std::min(size[0], image->GetDimensions()[0]);
@@ -110,6 +112,13 @@ void NumberLabels::set_colors(const Color& background, const Color& foreground, 
     is_stale_ = true;
 }
 
+void NumberLabels::set_font(const TextFont& font) {
+    if (font == font_) return;
+    font_ = font;
+    digits_ratio_ = 0.0;
+    is_stale_ = true;
+}
+
 void NumberLabels::set_labels(std::vector<NumberLabel> labels) {
     if (labels.empty() && labels_.empty()) return;
     labels_ = std::move(labels);
@@ -127,7 +136,7 @@ void NumberLabels::make_digits(double pixel_ratio) {
         advance_[kind] = 0;
         for (int i = 0; i < character_count; ++i) {
             Glyph& glyph = glyphs[kind][static_cast<std::size_t>(i)];
-            glyph = render_glyph(characters[i], digit_size * pixel_ratio, kind == 1);
+            glyph = render_glyph(characters[i], font_, digit_size * pixel_ratio, kind == 1);
             advance_[kind] = std::max(advance_[kind], glyph.width);
             for (int y = 0; y < glyph.height; ++y)
                 for (int x = 0; x < glyph.width; ++x)
@@ -197,6 +206,12 @@ void NumberLabels::update(const ViewMetrics& view, const DrawnSurface* hiding, c
     draw();
 }
 
+std::array<int, 2> NumberLabels::size_of(const NumberLabel& label) const {
+    const auto kind = static_cast<std::size_t>(label.kind);
+    const int length = static_cast<int>(std::to_string(label.number).size());
+    return {length * advance_[kind] + 2 * halo_, height_[kind] + 2 * halo_};
+}
+
 void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame) {
     struct Candidate {
         float x = 0.0f, y = 0.0f;
@@ -224,8 +239,23 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
         }
     });
     std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (candidates[i].depth >= 0) order.push_back(i);
+    std::array<float, 4> area{0.0f, 0.0f, 0.0f, 0.0f};
+    double ink = 0.0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        const Candidate& candidate = candidates[i];
+        if (candidate.depth < 0) continue;
+        if (order.empty()) area = {candidate.x, candidate.y, candidate.x, candidate.y};
+        area = {std::min(area[0], candidate.x), std::min(area[1], candidate.y), std::max(area[2], candidate.x),
+                std::max(area[3], candidate.y)};
+        order.push_back(i);
+        const auto size = size_of(labels_[i]);
+        ink += double(size[0]) * size[1];
+    }
+    // In steps, so that panning does not have numbers come and go.
+    constexpr double steps = 4.0;
+    const double room = std::max(1.0, double(area[2] - area[0]) * double(area[3] - area[1]));
+    const double crowd = std::round(steps * std::clamp((ink / room - few) / (many - few), 0.0, 1.0)) / steps;
+    const double clearance = crowd * most_clearance * view.pixel_ratio;
     // Those of elements have one place only and go before those of nodes at about the same distance.
     std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
         const auto rank = [&](std::size_t i) {
@@ -239,44 +269,49 @@ void NumberLabels::place(const ViewMetrics& view, const DrawnSurface* hiding, co
     const int columns = static_cast<int>(view.size[0] / cell) + 1, rows = static_cast<int>(view.size[1] / cell) + 1;
     std::vector<bool> is_taken(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), false);
     std::vector<bool> has_label;
-    const auto try_place = [&](const std::array<int, 4>& box) {
+    const auto try_place = [&](const std::array<int, 4>& box, double more_room) {
         if (box[0] < 0 || box[1] < 0 || box[2] > width || box[3] > view.size[1]) return false;
         if (box[0] < margins_.corner && box[1] < margins_.corner) return false;
-        const int left = static_cast<int>(box[0] / cell), right = static_cast<int>(box[2] / cell);
-        const int bottom = static_cast<int>(box[1] / cell), top = static_cast<int>(box[3] / cell);
-        for (int y = bottom; y <= std::min(top, rows - 1); ++y)
-            for (int x = left; x <= std::min(right, columns - 1); ++x)
+        // Cells from .. to that the box touches, or that are less than `more` away from it.
+        const auto range = [&](int from, int to, double more, int cells) {
+            return std::array{std::max(0, static_cast<int>((from - more) / cell)),
+                              std::min(cells - 1, static_cast<int>((to + more) / cell))};
+        };
+        const auto wide = range(box[0], box[2], more_room, columns), high = range(box[1], box[3], more_room, rows);
+        for (int y = high[0]; y <= high[1]; ++y)
+            for (int x = wide[0]; x <= wide[1]; ++x)
                 if (is_taken[static_cast<std::size_t>(y * columns + x)]) return false;
-        for (int y = bottom; y <= std::min(top, rows - 1); ++y)
-            for (int x = left; x <= std::min(right, columns - 1); ++x)
-                is_taken[static_cast<std::size_t>(y * columns + x)] = true;
+        const auto own_wide = range(box[0], box[2], 0.0, columns), own_high = range(box[1], box[3], 0.0, rows);
+        for (int y = own_high[0]; y <= own_high[1]; ++y)
+            for (int x = own_wide[0]; x <= own_wide[1]; ++x) is_taken[static_cast<std::size_t>(y * columns + x)] = true;
         return true;
     };
     placed_.clear();
     for (const std::size_t i : order) {
         const NumberLabel& label = labels_[i];
-        const auto kind = static_cast<std::size_t>(label.kind);
         if (label.kind == NumberKind::element) {
             const auto owner = static_cast<std::size_t>(label.owner);
             if (owner >= has_label.size()) has_label.resize(owner + 1, false);
             if (has_label[owner]) continue;
         }
-        const int length = static_cast<int>(std::to_string(label.number).size());
-        const int box_width = length * advance_[kind] + 2 * halo_, box_height = height_[kind] + 2 * halo_;
+        const auto [box_width, box_height] = size_of(label);
         const int x = static_cast<int>(std::lround(candidates[i].x)),
                   y = static_cast<int>(std::lround(candidates[i].y));
-        const auto box_at = [&](int left, int bottom) {
-            return std::array{left, bottom, left + box_width, bottom + box_height};
+        const auto box_at = [&, w = box_width, h = box_height](int left, int bottom) {
+            return std::array{left, bottom, left + w, bottom + h};
         };
         const int gap = static_cast<int>(std::lround(node_distance * view.pixel_ratio)) - halo_;
         std::vector<std::array<int, 4>> boxes;
         if (label.kind == NumberKind::element)
             boxes = {box_at(x - box_width / 2, y - box_height / 2)};
+        else if (crowd > 0.0)  // always the same side: else nobody knows whose number it is
+            boxes = {box_at(x + gap, y + gap)};
         else
             boxes = {box_at(x + gap, y + gap), box_at(x + gap, y - gap - box_height),
                      box_at(x - gap - box_width, y + gap), box_at(x - gap - box_width, y - gap - box_height)};
         for (const auto& box : boxes) {
-            if (!try_place(box)) continue;
+            // Those of elements stand in them, whatever is beside.
+            if (!try_place(box, label.kind == NumberKind::node ? clearance : 0.0)) continue;
             placed_.push_back({label.kind, label.number, label.owner, box});
             if (label.kind == NumberKind::element) has_label[static_cast<std::size_t>(label.owner)] = true;
             break;

@@ -8,6 +8,7 @@
 
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/picking.h"
+#include "ui/scene/text_font.h"
 
 class vtkPolyData;
 class vtkPolyDataMapper2D;
@@ -28,8 +29,8 @@ struct NumberLabel {
 };
 
 /// Numbers over the mesh: upright digits of constant size with a halo, so that they are legible on any colour. They
-/// never overlap; where room is short those nearest the eye are shown. Digits come from one texture, and all numbers
-/// are one batch of rectangles, made anew when the view or the numbers change.
+/// never overlap; where room is short those nearest the eye are shown, the fewer the more there are. Digits come from
+/// one texture, and all numbers are one batch of rectangles, made anew when the view or the numbers change.
 class NumberLabels {
   public:
     explicit NumberLabels(vtkRenderer* renderer);
@@ -38,6 +39,7 @@ class NumberLabels {
     NumberLabels& operator=(const NumberLabels&) = delete;
 
     void set_colors(const Color& background, const Color& foreground, const Color& accent);
+    void set_font(const TextFont& font);
     void set_labels(std::vector<NumberLabel> labels);
     /// What is not for numbers, device pixels: a strip at the right and a square in the lower left corner.
     struct Margins {
@@ -57,6 +59,8 @@ class NumberLabels {
     const std::vector<Placed>& placed() const { return placed_; }
 
   private:
+    /// Width and height, device pixels.
+    std::array<int, 2> size_of(const NumberLabel& label) const;
     void make_digits(double pixel_ratio);
     void place(const ViewMetrics& view, const DrawnSurface* hiding, const WorldFrame& frame);
     void draw();
@@ -65,6 +69,7 @@ class NumberLabels {
     std::vector<Placed> placed_;
     Color background_{1.0, 1.0, 1.0}, foreground_{0.0, 0.0, 0.0}, accent_{0.0, 0.0, 1.0};
 
+    TextFont font_;
     bool is_stale_ = false;
     std::array<int, 2> seen_size_{0, 0};
     Eigen::Matrix4d seen_matrix_ = Eigen::Matrix4d::Zero();

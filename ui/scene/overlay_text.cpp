@@ -13,7 +13,6 @@ namespace curvewright {
 OverlayText::OverlayText(vtkRenderer* renderer) : renderer_(renderer), actor_(vtkSmartPointer<vtkTextActor>::New()) {
     actor_->VisibilityOff();
     actor_->PickableOff();
-    actor_->GetTextProperty()->SetFontFamilyToArial();
     renderer->AddViewProp(actor_);
 }
 
@@ -22,8 +21,7 @@ void OverlayText::show(const std::string& text, double x, double y, double pixel
     vtkTextProperty* style = actor_->GetTextProperty();
     // Font sizes are points of the window's resolution; ours are pixels.
     const int dpi = renderer_->GetRenderWindow() ? renderer_->GetRenderWindow()->GetDPI() : 72;
-    style->SetFontSize(std::max(1, static_cast<int>(std::lround(pixels * 72.0 / std::max(1, dpi)))));
-    style->SetBold(is_bold);
+    use_font(*style, font_, pixels, is_bold, dpi);
     style->SetColor(color[0], color[1], color[2]);
     style->SetVerticalJustificationToCentered();
     if (anchor == TextAnchor::left) style->SetJustificationToLeft();

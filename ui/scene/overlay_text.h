@@ -5,6 +5,7 @@
 #include <vtkSmartPointer.h>
 
 #include "ui/palette/quality_colors.h"
+#include "ui/scene/text_font.h"
 
 class vtkRenderer;
 class vtkTextActor;
@@ -18,6 +19,7 @@ class OverlayText {
   public:
     explicit OverlayText(vtkRenderer* renderer);
 
+    void set_font(const TextFont& font) { font_ = font; }
     void show(const std::string& text, double x, double y, double pixels, const Color& color,
               TextAnchor anchor = TextAnchor::left, bool is_bold = false);
     void hide();
@@ -25,6 +27,7 @@ class OverlayText {
   private:
     vtkRenderer* renderer_;
     vtkSmartPointer<vtkTextActor> actor_;
+    TextFont font_;
 };
 
 /// Three significant digits, with a true minus sign.

@@ -122,8 +122,9 @@ Judged judge(const CurvedMesh& mesh, const Coordinates& x, Random& random, bool 
     const CurvedMesh moved = mesh.with_coordinates(x);
     result.after = assess_quality(moved, options);
     expect_right_certificates(moved, result.after, random);
-    if (is_boundary_fixed)
+    if (is_boundary_fixed) {
         for (const Index node : mesh.topology().boundary_nodes()) EXPECT_EQ(x.row(node), mesh.coordinates().row(node));
+    }
     return result;
 }
 

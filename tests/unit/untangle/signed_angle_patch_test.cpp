@@ -33,7 +33,9 @@ TEST(BatchInOrder, KeepsTheOrderOfNodesThatShareATriangle) {
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             EXPECT_GE(batch_of[i], 0);
             for (std::size_t j = 0; j < i; ++j)
-                if (share_a_triangle(nodes[i], nodes[j])) EXPECT_LT(batch_of[j], batch_of[i]);
+                if (share_a_triangle(nodes[i], nodes[j])) {
+                    EXPECT_LT(batch_of[j], batch_of[i]);
+                }
         }
         EXPECT_LT(batches.size(), nodes.size() / 3);  // there is something to do at the same time
     }

@@ -67,7 +67,9 @@ TEST(AutomaticBeta, NeverMakesAMeshWorseAndNeverMovesTheBoundary) {
         const QualitySummary after = summary(mesh, result);
         const Index bad_before = before.elements() - before.valid, bad_after = after.elements() - after.valid;
         EXPECT_LE(bad_after, bad_before) << round;
-        if (bad_after == bad_before) EXPECT_GE(after.min, before.min) << round;
+        if (bad_after == bad_before) {
+            EXPECT_GE(after.min, before.min) << round;
+        }
         tangled += bad_before > 0;
         untangled += bad_before > 0 && bad_after == 0;
         for (const Index node : mesh.topology().boundary_nodes())
@@ -171,8 +173,9 @@ class Checker : public UntangleObserver {
             EXPECT_TRUE(in_patch);
             EXPECT_EQ(ended->iterations, steps_of_patch);
             EXPECT_EQ(ended->beta > 0.0, ended->iterations > 0);
-            if (ended->min_scaled_jacobian_before > 0.0)
+            if (ended->min_scaled_jacobian_before > 0.0) {
                 EXPECT_GE(ended->min_scaled_jacobian_after, ended->min_scaled_jacobian_before);
+            }
             for (std::size_t i = 0; i < ended->nodes.size(); ++i)
                 for (int d = 0; d < 3; ++d) x(ended->nodes[i], d) = ended->positions[i][d];
             moved += ended->beta > 0.0;
@@ -239,8 +242,9 @@ TEST(AutomaticBeta, TakesCornersThatCoincide) {
     for (const SignedAngleOptions& options : {automatic(), normalised(0.3), SignedAngleOptions{}}) {
         const Coordinates result = untangle_signed_angles(mesh, options).coordinates;
         EXPECT_TRUE(result.allFinite());
-        if (options.beta_choice == BetaChoice::automatic)
+        if (options.beta_choice == BetaChoice::automatic) {
             EXPECT_LE(before.valid, assess_quality(mesh.with_coordinates(result)).summary.valid);
+        }
     }
 }
 
