@@ -30,6 +30,8 @@ class PictureDialog : public QDialog {
     ~PictureDialog() override;
 
     PictureOptions options() const;
+    /// Whether a picture is being made.
+    bool is_busy() const { return runner_.is_running(); }
 
   signals:
     /// A picture was written, or put on the clipboard (path "").
