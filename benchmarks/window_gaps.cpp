@@ -176,8 +176,7 @@ class Script {
     }
 
     bool is_settled() {
-        return !window_.jobs().runner().is_running() && !window_.view().has_frame_under_way() &&
-               !is_saving_picture();
+        return !window_.jobs().runner().is_running() && !window_.view().has_frame_under_way() && !is_saving_picture();
     }
     bool is_saving_picture() const {
         const auto* dialog = window_.findChild<PictureDialog*>();

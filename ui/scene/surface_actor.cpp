@@ -8,7 +8,6 @@
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
-#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -235,6 +234,10 @@ void SurfaceActor::set_field(const std::vector<double>& values, const ColorScale
 void SurfaceActor::clear() {
     data_->Initialize();
     actor_->VisibilityOff();
+}
+
+bool SurfaceActor::is_empty() const {
+    return data_->GetNumberOfPoints() == 0;
 }
 
 void SurfaceActor::set_lit(bool is_lit) {
