@@ -21,6 +21,7 @@
 #include "ui/main_window/mesh_view.h"
 #include "ui/scene/camera_control.h"
 #include "ui/scene/picture_pixels.h"
+#include "ui/scene/scene_preparation.h"
 
 namespace curvewright {
 namespace {
@@ -172,7 +173,11 @@ PictureStudio::PictureStudio(const MeshView& view) : parts_(std::make_unique<Par
     parts.window->SetSize(parts.shown_size.width(), parts.shown_size.height());
     parts.options = view.options();
     parts.scene.set_options(parts.options);
-    view.lend_view(parts.scene);
+    const SceneContent content = view.content();
+    parts.scene.set_mesh(content.mesh.get(), content.quality.get());
+    // Numbers of the present state are of no other state.
+    if (!content.coloring.is_of_one_state) parts.scene.set_coloring(content.coloring);
+    parts.scene.copy_view(view.scene(), true);
     parts.context.doneCurrent();
 }
 

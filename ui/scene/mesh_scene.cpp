@@ -24,23 +24,6 @@
 namespace curvewright {
 namespace {
 
-/// Whether a mesh has to be drawn anew, or its cut only, when the options change.
-enum class Redrawing { nothing, numbers, cut, all };
-
-Redrawing redrawing(const SceneOptions& before, const SceneOptions& now) {
-    const auto hides_whole = [](const std::optional<ClipPlane>& clip) {
-        return clip && clip->style == ClipStyle::whole_elements;
-    };
-    const bool is_clip_changed = before.clip != now.clip;
-    if (before.element_size != now.element_size || before.only_elements != now.only_elements ||
-        (is_clip_changed && (hides_whole(before.clip) || hides_whole(now.clip))))
-        return Redrawing::all;
-    if (is_clip_changed) return Redrawing::cut;  // the surface is the same, only cut elsewhere
-    return before.show_node_numbers != now.show_node_numbers || before.show_element_numbers != now.show_element_numbers
-               ? Redrawing::numbers
-               : Redrawing::nothing;
-}
-
 void check_quality(const CurvedMesh* mesh, const QualityReport* quality) {
     if (mesh && quality && quality->elements.size() != static_cast<std::size_t>(mesh->topology().element_count()))
         throw InvalidInput("The quality report to be drawn belongs to a mesh with another number of elements.");
@@ -275,10 +258,6 @@ void MeshScene::set_options(const SceneOptions& options) {
             break;
     }
     parts.apply_options();
-}
-
-bool MeshScene::draws_anew(const SceneOptions& options) const {
-    return redrawing(parts_->options(), options) >= Redrawing::cut;
 }
 
 void MeshScene::set_coloring(const Coloring& coloring) {

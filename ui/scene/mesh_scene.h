@@ -55,8 +55,6 @@ class MeshScene {
     /// marks stay as they are. positions: nodes × 3.
     void show_frame(const Coordinates& positions, const QualityReport* quality);
     void set_options(const SceneOptions& options);
-    /// Whether the mesh or its cut would be drawn anew.
-    bool draws_anew(const SceneOptions& options) const;
     const SceneOptions& options() const;
 
     /// What the colours say from now on, of other meshes too.

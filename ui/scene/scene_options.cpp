@@ -39,4 +39,18 @@ std::vector<bool> find_visible(const CurvedMesh& mesh, const SceneOptions& optio
     return visible;
 }
 
+Redrawing redrawing(const SceneOptions& before, const SceneOptions& now) {
+    const auto hides_whole = [](const std::optional<ClipPlane>& clip) {
+        return clip && clip->style == ClipStyle::whole_elements;
+    };
+    const bool is_clip_changed = before.clip != now.clip;
+    if (before.element_size != now.element_size || before.only_elements != now.only_elements ||
+        (is_clip_changed && (hides_whole(before.clip) || hides_whole(now.clip))))
+        return Redrawing::all;
+    if (is_clip_changed) return Redrawing::cut;  // the surface is the same, only cut elsewhere
+    return before.show_node_numbers != now.show_node_numbers || before.show_element_numbers != now.show_element_numbers
+               ? Redrawing::numbers
+               : Redrawing::nothing;
+}
+
 }  // namespace curvewright

@@ -45,4 +45,12 @@ std::optional<CuttingPlane> find_plane(const CurvedMesh& mesh, const std::option
 /// What is to be drawn of a mesh: one flag per element; empty = all.
 std::vector<bool> find_visible(const CurvedMesh& mesh, const SceneOptions& options);
 
+/// What has to be made anew of a drawing when its options change.
+enum class Redrawing { nothing, numbers, cut, all };
+Redrawing redrawing(const SceneOptions& before, const SceneOptions& now);
+/// Whether that is more than the numbers.
+inline bool draws_anew(const SceneOptions& before, const SceneOptions& now) {
+    return redrawing(before, now) >= Redrawing::cut;
+}
+
 }  // namespace curvewright
