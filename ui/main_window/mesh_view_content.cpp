@@ -31,7 +31,7 @@ bool MeshView::is_preparing() const {
 
 SceneContent MeshView::content() const {
     const Parts& parts = *parts_;
-    return {parts.wanted.mesh, parts.wanted.quality, parts.options, parts.coloring, parts.highlighted};
+    return {parts.wanted.mesh, parts.wanted.quality, parts.options, parts.coloring, parts.highlighted, {}};
 }
 
 void MeshView::show_state(const MeshState& state) {

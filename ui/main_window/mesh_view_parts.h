@@ -18,6 +18,7 @@
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkNew.h>
 
+#include "ui/main_window/deferring_window.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/scene/scene_preparation.h"
 #include "ui/tools/tool.h"
@@ -44,24 +45,6 @@ struct CameraPose {
         camera->SetViewUp(up.data());
         camera->SetParallelScale(scale);
     }
-};
-
-/// A render window whose frames can be left in the framebuffer that they are rendered to: taking them from there waits
-/// until they are finished.
-class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
-  public:
-    static DeferringRenderWindow* New();
-    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow)
-
-        void set_deferring(bool is_deferring) {
-        is_deferring_ = is_deferring;
-    }
-    void Frame() override {
-        if (!is_deferring_) vtkGenericOpenGLRenderWindow::Frame();
-    }
-
-  private:
-    bool is_deferring_ = false;
 };
 
 /// A frame that is drawn while the event loop goes on.

@@ -20,6 +20,7 @@
 #include "ui/scene/orientation_axes.h"
 #include "ui/scene/picking.h"
 #include "ui/scene/scene_preparation.h"
+#include "ui/scene/tile_renderer.h"
 
 namespace curvewright {
 namespace {
@@ -48,7 +49,7 @@ void replace_actors(vtkRenderer* renderer, const std::vector<vtkActor*>& before,
 }  // namespace
 
 struct MeshScene::Parts {
-    vtkNew<vtkRenderer> renderer;
+    vtkNew<TileRenderer> renderer;
     std::unique_ptr<MeshDrawing> drawing = std::make_unique<MeshDrawing>();  ///< never null
 
     CameraControl camera{renderer};
@@ -131,7 +132,8 @@ struct MeshScene::Parts {
         axes.set_visible(has_mesh() && !drawing->is_flat());
         camera.set_right_margin(legend.width(ratio));
         camera.prepare_frame();
-        const ViewMetrics view = camera.metrics(ratio);
+        ViewMetrics view = camera.metrics(ratio);
+        view.tile_shift = renderer->first_x() + renderer->first_y();
         drawing->update(view, view.is_parallel ? 1.0 : camera.distance());
         edit_marks.update(view);
         const std::optional<DrawnSurface> hiding =
@@ -152,6 +154,10 @@ MeshScene::~MeshScene() = default;
 
 vtkRenderer* MeshScene::renderer() const {
     return parts_->renderer;
+}
+
+void MeshScene::set_first_pixel(int x, int y) {
+    parts_->renderer->set_first_pixel(x, y);
 }
 
 void MeshScene::set_mesh(const CurvedMesh* mesh, const QualityReport* quality) {

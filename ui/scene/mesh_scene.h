@@ -38,6 +38,8 @@ class MeshScene {
     MeshScene& operator=(const MeshScene&) = delete;
 
     vtkRenderer* renderer() const;
+    /// Draws the part of the picture that begins there: see TileRenderer.
+    void set_first_pixel(int x, int y);
 
     /// Shows a mesh (none = empty). quality may be null (neutral colours) or must be the report of this very mesh.
     /// The camera stays, unless the topology is another one than before: then the view is reset.

@@ -8,8 +8,8 @@ ScenePreparation::ScenePreparation(SceneContent content, const MeshDrawing& show
     } else {
         const bool has_same_topology =
             shown.has_mesh() && content.mesh->shared_topology() == shown.mesh().shared_topology();
-        std::optional<WorldFrame> frame;
-        if (has_same_topology) frame = shown.frame();
+        std::optional<WorldFrame> frame = content.frame;
+        if (!frame && has_same_topology) frame = shown.frame();
         drawing_ = std::make_unique<MeshDrawing>(std::move(content.mesh), std::move(content.quality), frame);
     }
     drawing_->options = std::move(content.options);

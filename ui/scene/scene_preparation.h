@@ -15,7 +15,8 @@ struct SceneContent {
     std::shared_ptr<const QualityReport> quality;  ///< of this very mesh; null = neutral colours
     SceneOptions options;
     Coloring coloring;
-    std::vector<Index> highlighted;  ///< outlined elements
+    std::vector<Index> highlighted;   ///< outlined elements
+    std::optional<WorldFrame> frame;  ///< where it stands; none: as what is shown, if that is the same mesh
 };
 
 /// A drawing that a scene is to show later: MeshScene::prepare begins it, run() makes it, and MeshScene::show takes it
