@@ -4,6 +4,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QSettings>
+#include <QSignalSpy>
 
 #include "tests/gui/drag_under_test.h"
 
@@ -149,6 +150,70 @@ class LookingTest : public QObject {
         test.toggle(CommandId::worst_only);
         for (Index element = 0; element < test.topology().element_count(); ++element)
             QVERIFY(test.view().draws_element(element));
+    }
+
+    void what_is_prepared_behind_is_what_is_shown_in_the_end() {
+        LookingUnderTest small;
+        const QImage usual = small.view().picture(1);
+        const Index before = std::exchange(MeshView::least_nodes_prepared, 0);
+        {
+            LookingUnderTest test;
+            MeshView& view = test.view();
+            view.set_drawing_mode(DrawingMode::behind);
+            const auto wait = [&view] { return QTest::qWaitFor([&] { return !view.has_frame_under_way(); }); };
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), usual);
+            // Another mesh: nothing of the one before can be pointed at, and of several the last one is shown.
+            const QString square = test.inputs.path(QStringLiteral("square.msh"));
+            QSignalSpy shown(&view, &MeshView::content_shown);
+            test.open(test.inputs.path(QStringLiteral("cube.msh")));
+            QVERIFY(view.is_preparing());
+            QVERIFY(!view.element_at(QPointF(0.4 * view.width(), 0.5 * view.height())));
+            QCOMPARE(shown.count(), 0);
+            test.open(square);
+            QVERIFY(wait());
+            QVERIFY(view.is_flat());
+            QVERIFY(shown.count() <= 2);
+            QCOMPARE(view.picture(1), usual);
+            // A state and its colours come together, with all that was changed meanwhile.
+            test.drag_node(test.node_at(0.5, 0.0), {0, -40});
+            const QImage bent = view.picture(1);
+            QVERIFY(bent != usual);
+            test.click("tool_undo");
+            QVERIFY(view.is_preparing());
+            test.window->action(CommandId::edges)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            test.window->action(CommandId::select_all)->trigger();
+            test.window->action(CommandId::select_none)->trigger();
+            test.window->action(CommandId::edges)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), usual);
+            test.click("tool_redo");
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), bent);
+            // Stopped: what is shown stays, until something changes.
+            QSignalSpy stopped(&view, &MeshView::not_drawn);
+            test.click("tool_undo");
+            view.stop_preparing();
+            QCOMPARE(stopped.count(), 1);
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), bent);
+            test.window->action(CommandId::shrink)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), usual);
+            // Closed before it was ready.
+            test.click("tool_redo");
+            test.document().mark_unchanged();
+            test.window->action(CommandId::close_mesh)->trigger();
+            QVERIFY(!view.is_preparing());
+            QTest::qWait(50);
+            test.open(square);
+            QVERIFY(wait());
+            QCOMPARE(view.picture(1), usual);
+        }
+        MeshView::least_nodes_prepared = before;
     }
 };
 

@@ -55,6 +55,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// Meshes of so many nodes are drawn when what is to be drawn has been prepared on another thread. What is shown
     /// until then is the state before, or nothing if that was of another mesh; the last of several changes wins.
     static inline Index least_nodes_prepared = 30000;
+    /// Whether what it shows is so large.
+    bool is_large() const;
     bool is_preparing() const;
     /// Stays with what is shown until something changes again. not_drawn() tells it.
     void stop_preparing();
@@ -144,7 +146,6 @@ class MeshView : public QOpenGLWidget, public Canvas {
   private:
     struct Parts;
 
-    bool is_large() const;
     void show_nothing();
     void prepare();
     void begin_preparation();

@@ -182,18 +182,26 @@ void PictureDialog::draw_preview() {
     PictureOptions small = options();
     const QSize room = preview_->room() - QSize(2, 2);
     small.size = small.size.scaled(room, Qt::KeepAspectRatio).expandedTo({1, 1});
-    preview_->set_picture(view_.picture(small));
+    if (!view_.is_large()) return preview_->set_picture(view_.picture(small));
+    preview_drawing_ = std::make_unique<TiledPicture>(view_, small);
+    connect(preview_drawing_.get(), &TiledPicture::finished, this, [this](const QImage& image) {
+        preview_drawing_.release()->deleteLater();
+        preview_->set_picture(image);
+    });
 }
 
 void PictureDialog::draw(std::function<void(const QImage&)> then) {
+    preview_timer_.stop();
+    preview_drawing_.reset();
     drawing_ = std::make_unique<TiledPicture>(view_, options());
     connect(drawing_.get(), &TiledPicture::progress, progress_,
             [this](double fraction) { progress_->setValue(static_cast<int>(100.0 * fraction)); });
     connect(drawing_.get(), &TiledPicture::finished, this, [this, then = std::move(then)](const QImage& image) {
         // It is the one who tells this.
         drawing_.release()->deleteLater();
+        if (!image.isNull()) then(image);
         refresh();
-        if (!image.isNull()) return then(image);
+        if (!image.isNull()) return;
         emit failed(tr("The picture could not be drawn: there is not enough graphics memory for %1 × %2 pixels.")
                         .arg(size_->picture_size().width())
                         .arg(size_->picture_size().height()));

@@ -60,6 +60,7 @@ class PictureDialog : public QDialog {
     JobRunner runner_;
     QTimer preview_timer_;
     std::unique_ptr<TiledPicture> drawing_;
+    std::unique_ptr<TiledPicture> preview_drawing_;  ///< of large meshes
     PreviewLabel* preview_ = nullptr;
     SizeFields* size_ = nullptr;
     QDoubleSpinBox* line_scale_ = nullptr;

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <exception>
 #include <optional>
-#include <thread>
 #include <vector>
 
 #include <QOpenGLExtraFunctions>
+#include <QThreadPool>
 #include <QTimer>
 
 #include <vtkOpenGLState.h>
@@ -41,7 +41,10 @@ struct TiledPicture::Parts {
     MeshScene scene;
     std::optional<ScenePreparation> preparation;
     std::exception_ptr problem;
-    std::jthread thread;
+    // Whoever gives up the picture while it is being prepared leaves the rest to that.
+    QObject relay;
+    TiledPicture* owner = nullptr;
+    bool is_preparing = false;
 
     int factor = 1;
     QSize tile, tiles;  ///< pixels of the picture; how many
@@ -52,6 +55,12 @@ struct TiledPicture::Parts {
     QTimer poll;
     QImage image;
 
+    ~Parts() {
+        if (!graphics.make_current()) return;
+        if (fence) graphics.context().extraFunctions()->glDeleteSync(fence);
+        preparation.reset();
+        graphics.done_current();
+    }
     int count() const { return tiles.width() * tiles.height(); }
     QPoint place() const { return {next % tiles.width(), next / tiles.width()}; }
 };
@@ -75,27 +84,32 @@ TiledPicture::TiledPicture(const MeshView& view, const PictureOptions& options, 
     parts.graphics.window()->AddRenderer(parts.scene.renderer());
     parts.graphics.done_current();
     parts.preparation.emplace(parts.scene.prepare(std::move(content)));
-    parts.thread = std::jthread([this, &parts] {
+    parts.owner = this;
+    parts.is_preparing = true;
+    QThreadPool::globalInstance()->start([&parts] {
         try {
             parts.preparation->run();
         } catch (...) {
             parts.problem = std::current_exception();
         }
-        QMetaObject::invokeMethod(this, &TiledPicture::take_drawing, Qt::QueuedConnection);
+        const auto told = [&parts] {
+            parts.is_preparing = false;
+            if (parts.owner)
+                parts.owner->take_drawing();
+            else
+                QTimer::singleShot(0, [&parts] { delete &parts; });
+        };
+        QMetaObject::invokeMethod(&parts.relay, told, Qt::QueuedConnection);
     });
 }
 
 TiledPicture::~TiledPicture() {
-    Parts& parts = *parts_;
-    if (parts.thread.joinable()) parts.thread.join();
-    if (!parts.graphics.make_current()) return;
-    if (parts.fence) parts.graphics.context().extraFunctions()->glDeleteSync(parts.fence);
-    parts.preparation.reset();
-    parts.graphics.done_current();
+    if (!parts_->is_preparing) return;
+    parts_->owner = nullptr;
+    parts_.release();
 }
 
 void TiledPicture::take_drawing() {
-    parts_->thread.join();
     if (parts_->problem)
         end({});
     else
