@@ -30,6 +30,14 @@ struct LookingUnderTest : DragUnderTest {
     }
 };
 
+int differing(const QImage& a, const QImage& b) {
+    if (a.size() != b.size()) return a.width() * a.height();
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) count += a.pixel(x, y) != b.pixel(x, y);
+    return count;
+}
+
 }  // namespace
 
 class LookingTest : public QObject {
@@ -155,6 +163,7 @@ class LookingTest : public QObject {
     void what_is_prepared_behind_is_what_is_shown_in_the_end() {
         LookingUnderTest small;
         const QImage usual = small.view().picture(1);
+        constexpr int few = 30;  // pixels: sides that were curved once stay cut finer
         const Index before = std::exchange(MeshView::least_nodes_prepared, 0);
         {
             LookingUnderTest test;
@@ -162,7 +171,7 @@ class LookingTest : public QObject {
             view.set_drawing_mode(DrawingMode::behind);
             const auto wait = [&view] { return QTest::qWaitFor([&] { return !view.has_frame_under_way(); }); };
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), usual);
+            QVERIFY(differing(view.picture(1), usual) <= few);
             // Another mesh: nothing of the one before can be pointed at, and of several the last one is shown.
             const QString square = test.inputs.path(QStringLiteral("square.msh"));
             QSignalSpy shown(&view, &MeshView::content_shown);
@@ -174,11 +183,12 @@ class LookingTest : public QObject {
             QVERIFY(wait());
             QVERIFY(view.is_flat());
             QVERIFY(shown.count() <= 2);
-            QCOMPARE(view.picture(1), usual);
+            QVERIFY(differing(view.picture(1), usual) <= few);
             // A state and its colours come together, with all that was changed meanwhile.
             test.drag_node(test.node_at(0.5, 0.0), {0, -40});
+            test.point_at({5, 5});  // away from what would show under the pointer
             const QImage bent = view.picture(1);
-            QVERIFY(bent != usual);
+            QVERIFY(differing(bent, usual) > 20 * few);
             test.click("tool_undo");
             QVERIFY(view.is_preparing());
             test.window->action(CommandId::edges)->trigger();
@@ -188,21 +198,21 @@ class LookingTest : public QObject {
             test.window->action(CommandId::edges)->trigger();
             test.window->action(CommandId::shrink)->trigger();
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), usual);
+            QVERIFY(differing(view.picture(1), usual) <= few);
             test.click("tool_redo");
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), bent);
+            QVERIFY(differing(view.picture(1), bent) <= few);
             // Stopped: what is shown stays, until something changes.
             QSignalSpy stopped(&view, &MeshView::not_drawn);
             test.click("tool_undo");
             view.stop_preparing();
             QCOMPARE(stopped.count(), 1);
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), bent);
+            QVERIFY(differing(view.picture(1), bent) <= few);
             test.window->action(CommandId::shrink)->trigger();
             test.window->action(CommandId::shrink)->trigger();
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), usual);
+            QVERIFY(differing(view.picture(1), usual) <= few);
             // Closed before it was ready.
             test.click("tool_redo");
             test.document().mark_unchanged();
@@ -211,7 +221,7 @@ class LookingTest : public QObject {
             QTest::qWait(50);
             test.open(square);
             QVERIFY(wait());
-            QCOMPARE(view.picture(1), usual);
+            QVERIFY(differing(view.picture(1), usual) <= few);
         }
         MeshView::least_nodes_prepared = before;
     }
