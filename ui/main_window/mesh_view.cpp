@@ -176,8 +176,7 @@ void MeshView::follow_camera(const MeshView& other) {
     request_frame();
 }
 
-bool MeshView::draws_element(Index element) {
-    finish_preparing();
+bool MeshView::draws_element(Index element) const {
     return parts_->scene.draws_element(element);
 }
 

@@ -60,6 +60,8 @@ class MeshView : public QOpenGLWidget, public Canvas {
     bool is_preparing() const;
     /// Stays with what is shown until something changes again. not_drawn() tells it.
     void stop_preparing();
+    /// Waits until what was asked for is shown, for those who cannot go on without.
+    void finish_preparing();
     /// All that the view shows, or is going to.
     SceneContent content() const;
 
@@ -77,7 +79,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void set_highlighted_elements(const std::vector<Index>& elements);
     void look(ViewDirection direction);
     /// Whether any side of the element is drawn: not if it is inside a solid or the clip plane hides it.
-    bool draws_element(Index element);
+    bool draws_element(Index element) const;
     /// Takes over where another view's camera is.
     void follow_camera(const MeshView& other);
     /// Moves the camera to an element within 200 ms.
@@ -154,8 +156,6 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void show_preparation();
     void tell_prepared();
     void forget_preparation();
-    /// Waits for it.
-    void finish_preparing();
     void release_graphics();
     void request_frame();
     /// Renders; with waits = false up to where the picture would be waited for.
