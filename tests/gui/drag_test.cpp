@@ -171,6 +171,9 @@ class DragTest : public QObject {
             test.window->resize(test.window->size() - QSize(40, 0));
             test.point_at({5, 5});
             QTest::qWait(100);
+            // Views are fitted anew by as many changes of their size as they have drawn.
+            test.window->action(CommandId::fit)->trigger();
+            QTest::qWait(100);
             pictures[i] = test.view().grabFramebuffer();
             // The camera is drawn from anew; nothing is held back for good.
             const Eigen::RowVector3d middle(0.5, 0.5, 0.0);

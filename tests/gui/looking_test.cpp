@@ -4,6 +4,7 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QSpinBox>
 #include <QTreeWidget>
 
@@ -30,6 +31,14 @@ struct LookingUnderTest : DragUnderTest {
         return count;
     }
 };
+
+int differing(const QImage& a, const QImage& b) {
+    if (a.size() != b.size()) return a.width() * a.height();
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) count += a.pixel(x, y) != b.pixel(x, y);
+    return count;
+}
 
 }  // namespace
 
@@ -225,6 +234,72 @@ class LookingTest : public QObject {
             drawn += later.view().draws_element(element);
         QCOMPARE(drawn, 3);
         later.toggle(CommandId::worst_only);
+    }
+
+    void what_is_prepared_behind_is_what_is_shown_in_the_end() {
+        LookingUnderTest small;
+        const QImage usual = small.view().picture(1);
+        constexpr int few = 30;  // pixels: sides that were curved once stay cut finer
+        const Index before = std::exchange(MeshView::least_nodes_prepared, 0);
+        {
+            LookingUnderTest test;
+            MeshView& view = test.view();
+            view.set_drawing_mode(DrawingMode::behind);
+            const auto wait = [&view] { return QTest::qWaitFor([&] { return !view.has_frame_under_way(); }); };
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), usual) <= few);
+            // Another mesh: nothing of the one before can be pointed at, and of several the last one is shown.
+            const QString square = test.inputs.path(QStringLiteral("square.msh"));
+            QSignalSpy shown(&view, &MeshView::content_shown);
+            test.open(test.inputs.path(QStringLiteral("cube.msh")));
+            QVERIFY(view.is_preparing());
+            QVERIFY(!view.element_at(QPointF(0.4 * view.width(), 0.5 * view.height())));
+            QCOMPARE(shown.count(), 0);
+            test.open(square);
+            QVERIFY(wait());
+            QVERIFY(view.is_flat());
+            QVERIFY(shown.count() <= 2);
+            QVERIFY(differing(view.picture(1), usual) <= few);
+            // A state and its colours come together, with all that was changed meanwhile.
+            test.drag_node(test.node_at(0.5, 0.0), {0, -40});
+            test.point_at({5, 5});  // away from what would show under the pointer
+            const QImage bent = view.picture(1);
+            QVERIFY(differing(bent, usual) > 20 * few);
+            test.click("tool_undo");
+            QVERIFY(view.is_preparing());
+            test.window->action(CommandId::edges)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            test.window->action(CommandId::select_all)->trigger();
+            test.window->action(CommandId::select_none)->trigger();
+            test.window->action(CommandId::edges)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), usual) <= few);
+            test.click("tool_redo");
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), bent) <= few);
+            // Stopped: what is shown stays, until something changes.
+            QSignalSpy stopped(&view, &MeshView::not_drawn);
+            test.click("tool_undo");
+            view.stop_preparing();
+            QCOMPARE(stopped.count(), 1);
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), bent) <= few);
+            test.window->action(CommandId::shrink)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), usual) <= few);
+            // Closed before it was ready.
+            test.click("tool_redo");
+            test.document().mark_unchanged();
+            test.window->action(CommandId::close_mesh)->trigger();
+            QVERIFY(!view.is_preparing());
+            QTest::qWait(50);
+            test.open(square);
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), usual) <= few);
+        }
+        MeshView::least_nodes_prepared = before;
     }
 };
 

@@ -8,13 +8,16 @@
 #include <QGuiApplication>
 #include <QImage>
 #include <QLabel>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
+#include <QSignalSpy>
 #include <QSpinBox>
 
 #include "tests/gui/gui_test_support.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/main_window/picture_dialog.h"
+#include "ui/main_window/tiled_picture.h"
 
 using namespace curvewright;
 using namespace curvewright::testing;
@@ -69,6 +72,16 @@ int largest_difference(const QImage& a, const QImage& b) {
                 {largest, std::abs(p.red() - q.red()), std::abs(p.green() - q.green()), std::abs(p.blue() - q.blue())});
         }
     return largest;
+}
+
+int count_different(const QImage& a, const QImage& b) {
+    int count = 0;
+    for (int y = 0; y < a.height(); ++y)
+        for (int x = 0; x < a.width(); ++x) {
+            const QColor p = a.pixelColor(x, y), q = b.pixelColor(x, y);
+            count += std::abs(p.red() - q.red()) + std::abs(p.green() - q.green()) + std::abs(p.blue() - q.blue()) > 9;
+        }
+    return count;
 }
 
 /// Laid on a ground of one colour.
@@ -220,12 +233,98 @@ class PictureTest : public QObject {
         QVERIFY2(std::abs(thick / twice - 3.0) < 0.5, qPrintable(QString::number(thick / twice)));
     }
 
+    void tiles_make_the_same_picture_data() {
+        QTest::addColumn<QString>("mesh");
+        QTest::addColumn<bool>("is_transparent");
+        QTest::newRow("flat") << QStringLiteral("square.msh") << false;
+        QTest::newRow("solid") << QStringLiteral("cube.msh") << false;
+        QTest::newRow("see-through") << QStringLiteral("cube.msh") << true;
+    }
+    void tiles_make_the_same_picture() {
+        QFETCH(QString, mesh);
+        QFETCH(bool, is_transparent);
+        PictureUnderTest test(mesh.toLatin1().constData());
+        // Sides that tiles divide evenly, and one that they do not.
+        for (const QSize size : {QSize(600, 400), QSize(601, 397)}) {
+            PictureOptions options{.size = size};
+            options.is_transparent = is_transparent;
+            const long long before = std::exchange(TiledPicture::tile_pixels, 100'000);
+            TiledPicture tiled(test.view(), options);
+            QSignalSpy finished(&tiled, &TiledPicture::finished), progress(&tiled, &TiledPicture::progress);
+            QVERIFY(finished.wait(20000));
+            TiledPicture::tile_pixels = before;
+            QVERIFY2(progress.count() >= 9, qPrintable(QString::number(progress.count())));
+            QImage image = finished[0][0].value<QImage>(), whole = test.view().picture(options);
+            QCOMPARE(image.size(), size);
+            QCOMPARE(image.hasAlphaChannel(), is_transparent);
+            QCOMPARE(whole.hasAlphaChannel(), is_transparent);
+            if (is_transparent) {
+                // What is hardly there has hardly a colour.
+                image = laid_on(image, Qt::white);
+                whole = laid_on(whole, Qt::white);
+            }
+            // Where tiles reach beyond the picture it is drawn a pixel or two larger, and cut.
+            const bool is_even = size.width() == 600;
+            const int largest = largest_difference(image, whole), count = count_different(image, whole);
+            QVERIFY2(!is_even || largest <= 3, qPrintable(QString::number(largest)));
+            QVERIFY2(count < size.width() * size.height() / (is_even ? 1000 : 8), qPrintable(QString::number(count)));
+        }
+    }
+
+    void the_window_lives_on_while_a_picture_is_drawn_and_can_stop_it() {
+        PictureUnderTest test;
+        PictureDialog* dialog = test.show_dialog();
+        test.choose_size(3840, 2160);
+        auto* progress = test.find<QProgressBar>("picture_progress");
+        QVERIFY(!progress->isVisible());
+        for (const bool by_key : {false, true}) {
+            test.file_answer = test.inputs.path(QStringLiteral("stopped.png"));
+            test.click("picture_save");
+            QVERIFY(progress->isVisible());
+            QVERIFY(!test.find<QPushButton>("picture_save")->isEnabled());
+            QTRY_VERIFY(progress->value() > 0);
+            QVERIFY(dialog->is_busy());
+            if (by_key)
+                QTest::keyClick(dialog, Qt::Key_Escape);
+            else
+                test.click("picture_stop");
+            QVERIFY(!dialog->is_busy());
+            QVERIFY(!progress->isVisible());
+            QVERIFY(dialog->isVisible());
+            QTest::qWait(100);
+            QVERIFY(!QFile::exists(test.file_answer));
+            QVERIFY(test.find<QPushButton>("picture_save")->isEnabled());
+        }
+        // What the view showed when it was begun is what is in it.
+        test.choose_size(800, 500);
+        PictureOptions options{.size = {800, 500}};
+        const QImage before = test.view().picture(options);
+        test.file_answer = test.inputs.path(QStringLiteral("begun.png"));
+        test.click("picture_save");
+        test.window->action(CommandId::edges)->trigger();
+        QTRY_VERIFY(!test.window->findChild<PictureDialog*>());
+        QVERIFY(largest_difference(QImage(test.file_answer), before) <= 3);
+        QVERIFY(largest_difference(test.view().picture(options), before) > 3);
+        // Opening another mesh gives it up.
+        test.show_dialog();
+        test.choose_size(3840, 2160);
+        test.file_answer = test.inputs.path(QStringLiteral("given_up.png"));
+        test.click("picture_save");
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        QTRY_VERIFY(!test.window->findChild<PictureDialog*>());
+        QTest::qWait(100);
+        QVERIFY(!QFile::exists(test.file_answer));
+        QVERIFY(test.errors.isEmpty());
+    }
+
     void the_clipboard_gets_it_with_its_alpha() {
         PictureUnderTest test;
         test.show_dialog();
         test.find<QCheckBox>("picture_transparent")->setChecked(true);
         test.choose_size(320, 200);
+        QGuiApplication::clipboard()->clear();
         test.click("picture_copy");
+        QTRY_VERIFY(!QGuiApplication::clipboard()->image().isNull());
         const QImage copied = QGuiApplication::clipboard()->image();
         QCOMPARE(copied.size(), QSize(320, 200));
         QCOMPARE(qAlpha(copied.pixel(1, 1)), 0);

@@ -378,6 +378,7 @@ void MainWindow::uncover(Index element) {
     const int axis = clip_bar_->setting().axis;
     const double extent = box(1, axis) - box(0, axis);
     if (extent > 0.0) clip_bar_->show_layer((mesh.element_center(element)[axis] - box(0, axis)) / extent);
+    view_->finish_preparing();
     if (!view_->draws_element(element)) actions_[CommandId::clip]->setChecked(false);
 }
 

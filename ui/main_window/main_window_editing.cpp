@@ -78,6 +78,16 @@ void MainWindow::connect_editing() {
         else
             hint_->setText(tr("%1, %2 %. Esc: put back").arg(phase).arg(static_cast<int>(100.0 * fraction)));
     });
+    connect(before_view_, &MeshView::content_shown, this, [this] { before_view_->follow_camera(*view_); });
+    connect(view_, &MeshView::preparing_changed, this, [this](bool takes_long) {
+        if (takes_long)
+            hint_->setText(tr("preparing the picture… Esc: leave it as it is"));
+        else
+            update_hint();
+    });
+    connect(view_, &MeshView::not_drawn, this, [this] {
+        statusBar()->showMessage(tr("The picture is not that of the present state: View > Fit draws it."), 12000);
+    });
     connect(view_, &MeshView::frame_begun, &drag_, [this] { drag_.hold_frames(true); });
     connect(view_, &MeshView::frame_drawn, &drag_, [this] { drag_.hold_frames(false); });
     connect(view_, &MeshView::pointer_moved, pointer_tag_, &PointerTag::follow);

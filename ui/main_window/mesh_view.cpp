@@ -122,6 +122,11 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
 
     parts.behind.mode = first_drawing_mode;
     connect(&parts.behind.poll, &QTimer::timeout, this, &MeshView::poll_frame_behind);
+    parts.preparing.explain.setSingleShot(true);
+    connect(&parts.preparing.explain, &QTimer::timeout, this, [this] {
+        parts_->preparing.is_told = true;
+        emit preparing_changed(true);
+    });
     parts.flight.setDuration(200);
     parts.flight.setStartValue(0.0);
     parts.flight.setEndValue(1.0);
@@ -129,24 +134,16 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
 }
 
 MeshView::~MeshView() {
+    parts_->preparing.thread = {};
+    parts_->preparing.left_over.clear();
+    if (parts_->window->GetReadyForRendering()) makeCurrent();
+    parts_->preparing.work.reset();
     hold_repaints(false);
     if (context()) context()->disconnect(this);
     release_graphics();
     parts_->window->RemoveObserver(parts_->events);
     parts_->interactor->RemoveObserver(parts_->events);
     parts_->interactor->SetRenderWindow(nullptr);
-}
-
-void MeshView::show_state(const MeshState& state) {
-    parts_->flight.stop();
-    parts_->scene.set_mesh(state.mesh.get(), state.quality.get());
-    parts_->state = state;
-    request_frame();
-}
-
-void MeshView::show_frame(const Coordinates& positions, const QualityReport* quality) {
-    parts_->scene.show_frame(positions, quality);
-    request_frame();
 }
 
 void MeshView::set_tool(Tool* tool) {
@@ -163,34 +160,8 @@ void MeshView::set_tool(Tool* tool) {
     if (tool) tool->enter();
 }
 
-void MeshView::set_options(const SceneOptions& options) {
-    if (options.is_orthographic != parts_->options.is_orthographic) parts_->flight.stop();
-    parts_->options = options;
-    scale_to_device();
-}
-
 const SceneOptions& MeshView::options() const {
     return parts_->options;
-}
-
-void MeshView::set_coloring(const Coloring& coloring) {
-    parts_->scene.set_coloring(coloring);
-    request_frame();
-}
-
-const ColorScale& MeshView::shown_scale() const {
-    return parts_->scene.shown_scale();
-}
-
-void MeshView::scale_to_device() {
-    parts_->options.pixel_ratio = devicePixelRatioF();
-    parts_->scene.set_options(parts_->options);
-    request_frame();
-}
-
-void MeshView::set_highlighted_elements(const std::vector<Index>& elements) {
-    parts_->scene.set_highlighted_elements(elements);
-    request_frame();
 }
 
 void MeshView::look(ViewDirection direction) {
@@ -279,6 +250,7 @@ QImage MeshView::picture(const PictureOptions& options) {
     if (!parts.window->GetReadyForRendering()) return {};
     const int largest = largest_picture_side();
     if (!why_no_picture(options.size, largest).isEmpty()) return {};
+    finish_preparing();
     makeCurrent();
     finish_frame_behind();
     QImage image = draw_picture(parts.scene, parts.window, parts.options, device_size(), options, largest);
@@ -296,11 +268,8 @@ QSize MeshView::device_size() const {
     return {size[0], size[1]};
 }
 
-void MeshView::lend_view(MeshScene& scene) const {
-    scene.set_mesh(parts_->state.mesh.get(), parts_->state.quality.get());
-    // Numbers of the present state are of no other state.
-    if (!parts_->scene.coloring().is_of_one_state) scene.set_coloring(parts_->scene.coloring());
-    scene.copy_view(parts_->scene, true);
+const MeshScene& MeshView::scene() const {
+    return parts_->scene;
 }
 
 void MeshView::send(unsigned long vtk_event, QPointF position, Qt::KeyboardModifiers modifiers, bool is_repeat) {
@@ -383,6 +352,7 @@ void MeshView::mouseReleaseEvent(QMouseEvent* event) {
 
 void MeshView::keyPressEvent(QKeyEvent* event) {
     Parts& parts = *parts_;
+    if (event->key() == Qt::Key_Escape && parts.preparing.is_told) return stop_preparing();
     if (parts.tool && event->key() == Qt::Key_Escape && parts.tool->cancel()) {
         parts.tool_has_mouse = false;
         return;

@@ -18,6 +18,8 @@ namespace curvewright {
 class SceneInteractorStyle;
 class Tool;
 struct PictureOptions;
+struct PreparationWork;
+struct SceneContent;
 
 /// When a view waits for its picture.
 enum class DrawingMode {
@@ -50,8 +52,21 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// The map with the range that is shown now.
     const ColorScale& shown_scale() const;
 
+    /// Meshes of so many nodes are drawn when what is to be drawn has been prepared on another thread. What is shown
+    /// until then is the state before, or nothing if that was of another mesh; the last of several changes wins.
+    static inline Index least_nodes_prepared = 30000;
+    /// Whether what it shows is so large.
+    bool is_large() const;
+    bool is_preparing() const;
+    /// Stays with what is shown until something changes again. not_drawn() tells it.
+    void stop_preparing();
+    /// Waits until what was asked for is shown, for those who cannot go on without.
+    void finish_preparing();
+    /// All that the view shows, or is going to.
+    SceneContent content() const;
+
     void set_drawing_mode(DrawingMode mode);
-    /// Whether a frame is asked for that is not seen yet.
+    /// Whether something is asked for that is not seen yet.
     bool has_frame_under_way() const;
     /// Of views made from now on; tests want their pictures at once.
     static inline DrawingMode first_drawing_mode = DrawingMode::automatic;
@@ -87,8 +102,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// What the graphics can draw, pixels.
     int largest_picture_side();
     QSize device_size() const;
-    /// Shows in another scene what this view shows, from the same place.
-    void lend_view(MeshScene& scene) const;
+    const MeshScene& scene() const;
 
     bool is_flat() const override;
     QRectF free_area() const override;
@@ -109,6 +123,12 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void pointer_moved(QPointF position);
     /// A frame was drawn from somewhere else than the one before, but not where follow_camera() put it.
     void camera_moved();
+    /// What was asked for is what is shown: after a preparation only.
+    void content_shown();
+    /// Preparing takes longer than one would expect (true), or has ended.
+    void preparing_changed(bool takes_long);
+    /// What was asked for is not going to be shown: it was stopped, or there is not enough memory.
+    void not_drawn();
     /// A frame is being drawn behind: until frame_drawn(), another one would only be waited for.
     void frame_begun();
     /// A frame has been drawn anew and is about to be seen.
@@ -133,6 +153,14 @@ class MeshView : public QOpenGLWidget, public Canvas {
   private:
     struct Parts;
 
+    void show_nothing();
+    void prepare();
+    void begin_preparation();
+    void take_preparation(const std::shared_ptr<PreparationWork>& work);
+    void upload_preparation();
+    void show_preparation();
+    void tell_prepared();
+    void forget_preparation();
     void release_graphics();
     void request_frame();
     /// Renders; with waits = false up to where the picture would be waited for.
@@ -142,6 +170,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void poll_frame_behind();
     /// The picture that was drawn behind becomes the one that is shown; waits for it if it is not there.
     void finish_frame_behind();
+    void abandon_frame_behind();
     void hold_repaints(bool is_held);
     void tell_drawn();
     /// From where the camera is to where `set` puts it.

@@ -37,7 +37,7 @@ void MeshView::release_graphics() {
     parts.behind.fence = nullptr;
     parts.behind.poll.stop();
     parts.behind.is_pending = parts.behind.is_finished = false;
-    parts.behind.must_wait = true;
+    parts.behind.drawn_size = {};
     hold_repaints(false);
     parts.window->Finalize();
     parts.window->SetReadyForRendering(false);
@@ -45,13 +45,13 @@ void MeshView::release_graphics() {
 }
 
 void MeshView::resizeGL(int, int) {
-    finish_frame_behind();
+    abandon_frame_behind();
     // The framebuffer's own size: rounding of fractional ratios is Qt's.
     const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
     parts_->window->SetSize(size.width(), size.height());
     parts_->interactor->SetSize(size.width(), size.height());
     if (parts_->options.pixel_ratio != devicePixelRatioF()) scale_to_device();
-    parts_->is_stale = parts_->behind.must_wait = true;
+    parts_->is_stale = true;
 }
 
 void MeshView::paintGL() {
@@ -60,22 +60,28 @@ void MeshView::paintGL() {
     // Whatever else has the window repainted now cannot be drawn before the frame.
     if (behind.is_pending || behind.is_finished) {
         finish_frame_behind();
-    } else if (parts.is_stale && (behind.must_wait || !behind.is_on())) {
+    } else if (parts.is_stale && !behind.is_on()) {
         behind.clock.start();
         render(true);
-        behind.must_wait = false;
         tell_drawn();
     }
     vtkOpenGLState* state = parts.window->GetState();
     state->Reset();
     state->Push();
-    const int* size = parts.window->GetSize();
     parts.gl->glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
     parts.gl->glDrawBuffer(GL_COLOR_ATTACHMENT0);
     state->vtkglDisable(GL_SCISSOR_TEST);
     state->vtkglDisable(GL_BLEND);
-    parts.window->BlitDisplayFramebuffer(0, 0, 0, size[0], size[1], 0, 0, size[0], size[1], GL_COLOR_BUFFER_BIT,
-                                         GL_NEAREST);
+    // Until there is a picture of the view's size, what there is of the last one, in the middle.
+    const QSize drawn = behind.drawn_size, gap = device_size() - drawn;
+    if (!gap.isNull()) {
+        const Color& ground = parts.options.background;
+        state->vtkglClearColor(float(ground[0]), float(ground[1]), float(ground[2]), 1.0f);
+        parts.gl->glClear(GL_COLOR_BUFFER_BIT);
+    }
+    if (!drawn.isEmpty())
+        parts.window->BlitDisplayFramebuffer(0, 0, 0, drawn.width(), drawn.height(), gap.width() / 2, gap.height() / 2,
+                                             drawn.width(), drawn.height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
     // Opaque whatever VTK has left in the alpha channel: the window below must not shine through.
     parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
@@ -107,6 +113,7 @@ void MeshView::tell_drawn() {
     constexpr qint64 slow = 45, quick = 20;  // milliseconds
     const qint64 took = parts.behind.clock.elapsed();
     parts.behind.is_slow = took > slow || (parts.behind.is_slow && took > quick);
+    parts.behind.drawn_size = device_size();
     emit frame_drawn();
     const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
     if (!(pose == parts.told_pose)) {
@@ -118,7 +125,7 @@ void MeshView::tell_drawn() {
 void MeshView::request_frame() {
     parts_->is_stale = true;
     const FrameBehind& behind = parts_->behind;
-    if (!behind.is_on() || behind.must_wait || !isVisible())
+    if (!behind.is_on() || !isVisible() || !parts_->window->GetReadyForRendering())
         update();
     else if (!behind.is_pending && !behind.is_finished)
         schedule_frame_behind();
@@ -130,7 +137,7 @@ void MeshView::set_drawing_mode(DrawingMode mode) {
 }
 
 bool MeshView::has_frame_under_way() const {
-    return parts_->is_stale || parts_->behind.is_pending || parts_->behind.is_finished;
+    return is_preparing() || parts_->is_stale || parts_->behind.is_pending || parts_->behind.is_finished;
 }
 
 void MeshView::schedule_frame_behind() {
@@ -148,7 +155,7 @@ void MeshView::begin_frame_behind() {
     behind.is_scheduled = false;
     if (behind.is_pending || behind.is_finished) return;
     if (!parts.is_stale) return hold_repaints(false);
-    if (behind.must_wait || !isVisible() || !parts.window->GetReadyForRendering()) {
+    if (!behind.is_on() || !isVisible() || !parts.window->GetReadyForRendering()) {
         hold_repaints(false);
         update();
         return;
@@ -196,6 +203,15 @@ void MeshView::finish_frame_behind() {
     parts.window->Frame();
     state->Pop();
     tell_drawn();
+}
+
+void MeshView::abandon_frame_behind() {
+    FrameBehind& behind = parts_->behind;
+    hold_repaints(false);
+    behind.poll.stop();
+    behind.is_pending = behind.is_finished = false;
+    if (behind.fence) parts_->gl->glDeleteSync(behind.fence);
+    behind.fence = nullptr;
 }
 
 void MeshView::hold_repaints(bool is_held) {

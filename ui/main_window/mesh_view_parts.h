@@ -3,6 +3,8 @@
 // What the files of MeshView share, and nobody else includes.
 
 #include <array>
+#include <exception>
+#include <thread>
 
 #include <QElapsedTimer>
 #include <QOpenGLFunctions_3_2_Core>
@@ -16,7 +18,9 @@
 #include <vtkGenericRenderWindowInteractor.h>
 #include <vtkNew.h>
 
+#include "ui/main_window/deferring_window.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/scene/scene_preparation.h"
 #include "ui/tools/tool.h"
 
 namespace curvewright {
@@ -43,22 +47,6 @@ struct CameraPose {
     }
 };
 
-/// A render window whose frames can be left in the framebuffer that they are rendered to: taking them from there waits
-/// until they are finished.
-class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
-  public:
-    static DeferringRenderWindow* New();
-    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow)
-
-    void set_deferring(bool is_deferring) { is_deferring_ = is_deferring; }
-    void Frame() override {
-        if (!is_deferring_) vtkGenericOpenGLRenderWindow::Frame();
-    }
-
-  private:
-    bool is_deferring_ = false;
-};
-
 /// A frame that is drawn while the event loop goes on.
 struct FrameBehind {
     DrawingMode mode = DrawingMode::automatic;
@@ -66,7 +54,7 @@ struct FrameBehind {
     bool is_scheduled = false;  ///< to begin
     bool is_pending = false;    ///< begun, not known to be finished
     bool is_finished = false;   ///< but not shown yet
-    bool must_wait = true;      ///< the next one, because there is no picture of the present size
+    QSize drawn_size;           ///< of the picture that there is, device pixels; none = there is none
     GLsync fence = nullptr;
     QTimer poll;
     QElapsedTimer clock;
@@ -76,14 +64,43 @@ struct FrameBehind {
     bool is_on() const { return mode == DrawingMode::behind || (mode == DrawingMode::automatic && is_slow); }
 };
 
+/// A drawing that is being made on another thread, then handed to the graphics.
+struct PreparationWork {
+    ScenePreparation preparation;
+    MeshState state;
+    std::exception_ptr problem;
+    bool is_made = false;
+};
+
+/// What of a view is being prepared on another thread.
+struct PreparingBehind {
+    struct LateFrame {
+        Coordinates positions;
+        std::shared_ptr<const QualityReport> quality;
+    };
+    std::shared_ptr<PreparationWork> work;  ///< being made, or being handed to the graphics
+    std::jthread thread;
+    std::vector<std::pair<std::shared_ptr<PreparationWork>, std::jthread>> left_over;  ///< what nobody wants any more
+    SceneOptions options;                                                              ///< of the work
+    bool is_outdated = false;             ///< there is more to be prepared than the work
+    std::optional<LateFrame> late_frame;  ///< of a motion, that came meanwhile
+    QTimer explain;
+    bool is_told = false;  ///< that it takes long
+};
+
 struct MeshView::Parts {
     MeshScene scene;
     vtkNew<DeferringRenderWindow> window;
     vtkNew<vtkGenericRenderWindowInteractor> interactor;
     vtkNew<vtkCallbackCommand> events;
     QOpenGLFunctions_3_2_Core* gl = nullptr;
-    MeshState state;  ///< keeps alive what the scene shows
+    MeshState state;   ///< that the scene shows
+    MeshState wanted;  ///< that it is to show
+    PreparingBehind preparing;
     SceneOptions options;
+    Coloring coloring;
+    ColorScale wanted_scale;  ///< while that is being prepared
+    std::vector<Index> highlighted;
     QVariantAnimation flight;
     CameraPose told_pose;                         ///< that camera_moved() told last, or that was taken over
     std::vector<std::pair<int, QTimer*>> timers;  ///< of the interactor, by platform id

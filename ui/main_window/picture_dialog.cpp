@@ -8,8 +8,10 @@
 #include <QFormLayout>
 #include <QGuiApplication>
 #include <QHBoxLayout>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QPainter>
+#include <QProgressBar>
 #include <QPushButton>
 #include <QSettings>
 #include <QVBoxLayout>
@@ -17,6 +19,7 @@
 #include "core/base/error.h"
 #include "ui/jobs/picture_file.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/main_window/tiled_picture.h"
 #include "ui/panels/form_fields.h"
 #include "ui/panels/size_fields.h"
 #include "ui/panels/widgets.h"
@@ -117,6 +120,17 @@ PictureDialog::PictureDialog(MeshView& view, std::function<QString()> ask_path, 
     layout->setContentsMargins(16, 16, 16, 12);
     layout->setSpacing(12);
     layout->addLayout(top, 1);
+    progress_ = new QProgressBar;
+    progress_->setObjectName(QStringLiteral("picture_progress"));
+    stop_ = new QPushButton(tr("Stop"));
+    stop_->setObjectName(QStringLiteral("picture_stop"));
+    stop_->setToolTip(tr("Give up this picture (Esc)"));
+    stop_->setAutoDefault(false);
+    auto* under_way = new QHBoxLayout;
+    under_way->setSpacing(8);
+    under_way->addWidget(progress_, 1);
+    under_way->addWidget(stop_);
+    layout->addLayout(under_way);
     layout->addWidget(buttons);
     resize(680, 360);
 
@@ -131,6 +145,8 @@ PictureDialog::PictureDialog(MeshView& view, std::function<QString()> ask_path, 
     connect(save_, &QPushButton::clicked, this, &PictureDialog::save);
     connect(copy_, &QPushButton::clicked, this, &PictureDialog::copy);
     connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
+    connect(stop_, &QPushButton::clicked, this, &PictureDialog::stop);
+    connect(&runner_, &JobRunner::cancelled, this, &PictureDialog::refresh);
     connect(&runner_, &JobRunner::failed, this, [this](const QString&, const QString& text) {
         refresh();
         emit failed(text);
@@ -153,34 +169,68 @@ void PictureDialog::refresh() {
     const QString problem = why_no_picture(size_->picture_size(), view_.largest_picture_side());
     message_->setText(problem);
     message_->setVisible(!problem.isEmpty());
-    for (QPushButton* button : {save_, copy_}) button->setEnabled(problem.isEmpty() && !runner_.is_running());
-    preview_timer_.start();
+    for (QPushButton* button : {save_, copy_}) button->setEnabled(problem.isEmpty() && !is_busy());
+    progress_->setVisible(is_busy());
+    stop_->setVisible(is_busy());
+    if (!is_busy()) {
+        progress_->setRange(0, 100);
+        preview_timer_.start();
+    }
 }
 
 void PictureDialog::draw_preview() {
     PictureOptions small = options();
     const QSize room = preview_->room() - QSize(2, 2);
     small.size = small.size.scaled(room, Qt::KeepAspectRatio).expandedTo({1, 1});
-    preview_->set_picture(view_.picture(small));
+    if (!view_.is_large()) return preview_->set_picture(view_.picture(small));
+    preview_drawing_ = std::make_unique<TiledPicture>(view_, small);
+    connect(preview_drawing_.get(), &TiledPicture::finished, this, [this](const QImage& image) {
+        preview_drawing_.release()->deleteLater();
+        preview_->set_picture(image);
+    });
 }
 
-QImage PictureDialog::draw() {
-    QGuiApplication::setOverrideCursor(Qt::WaitCursor);
-    const QImage image = view_.picture(options());
-    QGuiApplication::restoreOverrideCursor();
-    if (image.isNull())
+void PictureDialog::draw(std::function<void(const QImage&)> then) {
+    preview_timer_.stop();
+    preview_drawing_.reset();
+    drawing_ = std::make_unique<TiledPicture>(view_, options());
+    connect(drawing_.get(), &TiledPicture::progress, progress_,
+            [this](double fraction) { progress_->setValue(static_cast<int>(100.0 * fraction)); });
+    connect(drawing_.get(), &TiledPicture::finished, this, [this, then = std::move(then)](const QImage& image) {
+        // It is the one who tells this.
+        drawing_.release()->deleteLater();
+        if (!image.isNull()) then(image);
+        refresh();
+        if (!image.isNull()) return;
         emit failed(tr("The picture could not be drawn: there is not enough graphics memory for %1 × %2 pixels.")
                         .arg(size_->picture_size().width())
                         .arg(size_->picture_size().height()));
-    return image;
+    });
+    progress_->setValue(0);
+    refresh();
+}
+
+void PictureDialog::stop() {
+    drawing_.reset();
+    runner_.cancel();
+    refresh();
+}
+
+void PictureDialog::keyPressEvent(QKeyEvent* event) {
+    if (event->key() == Qt::Key_Escape && is_busy())
+        stop();
+    else
+        QDialog::keyPressEvent(event);
 }
 
 void PictureDialog::save() {
     QString path = ask_path_();
     if (path.isEmpty()) return;
     if (QFileInfo(path).suffix().isEmpty()) path += QStringLiteral(".png");
-    const QImage image = draw();
-    if (image.isNull()) return;
+    draw([this, path](const QImage& image) { write(path, image); });
+}
+
+void PictureDialog::write(const QString& path, const QImage& image) {
     remember();
     runner_.start(tr("Writing %1").arg(QFileInfo(path).fileName()), [this, path, image](const TaskContext& context) {
         write_bytes(path, encode_png(image), context);
@@ -189,17 +239,18 @@ void PictureDialog::save() {
             accept();
         };
     });
+    progress_->setRange(0, 0);
     refresh();
 }
 
 void PictureDialog::copy() {
-    const QImage image = draw();
-    if (image.isNull()) return;
-    remember();
-    // What other programs understand best.
-    QGuiApplication::clipboard()->setImage(
-        image.convertToFormat(image.hasAlphaChannel() ? QImage::Format_ARGB32 : QImage::Format_RGB32));
-    emit saved({}, image.size());
+    draw([this](const QImage& image) {
+        remember();
+        // What other programs understand best.
+        QGuiApplication::clipboard()->setImage(
+            image.convertToFormat(image.hasAlphaChannel() ? QImage::Format_ARGB32 : QImage::Format_RGB32));
+        emit saved({}, image.size());
+    });
 }
 
 void PictureDialog::remember() const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include <QDialog>
 #include <QTimer>
@@ -11,6 +12,7 @@
 class QCheckBox;
 class QDoubleSpinBox;
 class QLabel;
+class QProgressBar;
 class QPushButton;
 
 namespace curvewright {
@@ -18,6 +20,7 @@ namespace curvewright {
 class MeshView;
 class PreviewLabel;
 class SizeFields;
+class TiledPicture;
 
 /// File > Save picture: what the view shows, at any size, to a file or the clipboard, with a preview. The window stays
 /// usable beside it: the preview follows the view. Remembers the last choices.
@@ -30,16 +33,24 @@ class PictureDialog : public QDialog {
     ~PictureDialog() override;
 
     PictureOptions options() const;
+    /// Whether a picture is being made.
+    bool is_busy() const { return drawing_ || runner_.is_running(); }
+    /// Gives up the picture that is being made.
+    void stop();
 
   signals:
     /// A picture was written, or put on the clipboard (path "").
     void saved(const QString& path, QSize size);
     void failed(const QString& message);
 
+  protected:
+    void keyPressEvent(QKeyEvent* event) override;
+
   private:
     void refresh();
     void draw_preview();
-    QImage draw();
+    void draw(std::function<void(const QImage&)> then);
+    void write(const QString& path, const QImage& image);
     void save();
     void copy();
     void remember() const;
@@ -48,12 +59,15 @@ class PictureDialog : public QDialog {
     std::function<QString()> ask_path_;
     JobRunner runner_;
     QTimer preview_timer_;
+    std::unique_ptr<TiledPicture> drawing_;
+    std::unique_ptr<TiledPicture> preview_drawing_;  ///< of large meshes
     PreviewLabel* preview_ = nullptr;
     SizeFields* size_ = nullptr;
     QDoubleSpinBox* line_scale_ = nullptr;
     QCheckBox *transparent_ = nullptr, *legend_ = nullptr;
     QLabel* message_ = nullptr;
-    QPushButton *save_ = nullptr, *copy_ = nullptr;
+    QProgressBar* progress_ = nullptr;
+    QPushButton *save_ = nullptr, *copy_ = nullptr, *stop_ = nullptr;
 };
 
 /// A picture in the middle of its place, on a chequered ground where it is transparent.

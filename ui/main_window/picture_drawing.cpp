@@ -4,23 +4,21 @@
 #include <cmath>
 
 #include <QCoreApplication>
-#include <QOffscreenSurface>
 #include <QOpenGLContext>
 #include <QOpenGLFunctions>
 
-#include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
-#include <vtkCommand.h>
 #include <vtkGenericOpenGLRenderWindow.h>
-#include <vtkNew.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "ui/document/number_format.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/main_window/offscreen_graphics.h"
 #include "ui/scene/camera_control.h"
 #include "ui/scene/picture_pixels.h"
+#include "ui/scene/scene_preparation.h"
 
 namespace curvewright {
 namespace {
@@ -87,16 +85,17 @@ int largest_picture_side() {
     return std::min({texture, buffer, viewport[0], viewport[1], 16384});
 }
 
-QImage draw_picture(MeshScene& scene, vtkGenericOpenGLRenderWindow* window, const SceneOptions& shown, QSize shown_size,
-                    const PictureOptions& options, int largest_side) {
+int smoothing_factor(const PictureOptions& options, int largest_side) {
     const QSize twice = 2 * options.size;
     const bool is_doubled = options.is_smooth && std::max(twice.width(), twice.height()) <= largest_side &&
                             area(twice) <= most_smooth_pixels;
-    const int factor = is_doubled ? 2 : 1;
-    const QSize size = factor * options.size;
-    const QSize window_size(window->GetSize()[0], window->GetSize()[1]);
+    return is_doubled ? 2 : 1;
+}
+
+void set_up_picture(MeshScene& scene, const SceneOptions& shown, QSize shown_size, const PictureOptions& options,
+                    int factor) {
     const CameraState state = scene.camera_state();
-    const double aspect = double(size.width()) / size.height();
+    const double aspect = double(options.size.width()) / options.size.height();
     const double shown_aspect = double(shown_size.width()) / shown_size.height();
     // A picture of the view's own proportions is what the view shows.
     const bool fits_anew = state.keeps_fitted &&
@@ -113,6 +112,15 @@ QImage draw_picture(MeshScene& scene, vtkGenericOpenGLRenderWindow* window, cons
     drawn.pixel_ratio *= growth * options.line_scale * factor;
     drawn.show_legend = shown.show_legend && options.has_legend;
     scene.set_options(drawn);
+}
+
+QImage draw_picture(MeshScene& scene, vtkGenericOpenGLRenderWindow* window, const SceneOptions& shown, QSize shown_size,
+                    const PictureOptions& options, int largest_side) {
+    const int factor = smoothing_factor(options, largest_side);
+    const QSize size = factor * options.size;
+    const QSize window_size(window->GetSize()[0], window->GetSize()[1]);
+    const CameraState state = scene.camera_state();
+    set_up_picture(scene, shown, shown_size, options, factor);
     window->SetSize(size.width(), size.height());
     QImage image;
     if (options.is_transparent) {
@@ -121,7 +129,7 @@ QImage draw_picture(MeshScene& scene, vtkGenericOpenGLRenderWindow* window, cons
         if (on_black && on_white)
             image = to_image(
                 without_ground(on_black->GetPointer(0), on_white->GetPointer(0), size.width(), size.height(), factor));
-    } else if (const auto pixels = draw_on(drawn.background, scene, window, size)) {
+    } else if (const auto pixels = draw_on(shown.background, scene, window, size)) {
         image = to_image(average(pixels->GetPointer(0), size.width(), size.height(), factor));
     }
     scene.set_options(shown);
@@ -131,68 +139,37 @@ QImage draw_picture(MeshScene& scene, vtkGenericOpenGLRenderWindow* window, cons
 }
 
 struct PictureStudio::Parts {
-    QOffscreenSurface surface;
-    QOpenGLContext context;
-    vtkNew<vtkCallbackCommand> events;
-    vtkNew<vtkGenericOpenGLRenderWindow> window;
+    OffscreenGraphics graphics;
     MeshScene scene;
     SceneOptions options;
     QSize shown_size;
-    bool is_ready = false;
-    int largest_side = 0;
 };
 
 PictureStudio::PictureStudio(const MeshView& view) : parts_(std::make_unique<Parts>()) {
     Parts& parts = *parts_;
-    parts.surface.create();
-    parts.is_ready = parts.context.create() && parts.context.makeCurrent(&parts.surface);
-    if (!parts.is_ready) return;
-    parts.largest_side = largest_picture_side();
-    parts.events->SetClientData(&parts);
-    parts.events->SetCallback([](vtkObject*, unsigned long event, void* client, void* answer) {
-        auto& own = *static_cast<Parts*>(client);
-        if (event == vtkCommand::WindowMakeCurrentEvent) own.context.makeCurrent(&own.surface);
-        if (event == vtkCommand::WindowIsCurrentEvent)
-            *static_cast<bool*>(answer) = QOpenGLContext::currentContext() == &own.context;
-        if (event == vtkCommand::WindowSupportsOpenGLEvent || event == vtkCommand::WindowIsDirectEvent)
-            *static_cast<int*>(answer) = 1;
-    });
-    for (const auto event : {vtkCommand::WindowMakeCurrentEvent, vtkCommand::WindowIsCurrentEvent,
-                             vtkCommand::WindowSupportsOpenGLEvent, vtkCommand::WindowIsDirectEvent})
-        parts.window->AddObserver(event, parts.events);
-    parts.window->SetOwnContext(0);
-    parts.window->SetFrameBlitModeToNoBlit();
-    parts.window->SetMultiSamples(0);
-    parts.window->SetForceMaximumHardwareLineWidth(1);
-    parts.window->SetReadyForRendering(true);
-    parts.window->SetMapped(1);
-    parts.window->OpenGLInitContext();
-    parts.window->AddRenderer(parts.scene.renderer());
+    if (!parts.graphics.make_current()) return;
+    parts.graphics.window()->AddRenderer(parts.scene.renderer());
     parts.shown_size = view.device_size();
-    parts.window->SetSize(parts.shown_size.width(), parts.shown_size.height());
+    parts.graphics.window()->SetSize(parts.shown_size.width(), parts.shown_size.height());
     parts.options = view.options();
     parts.scene.set_options(parts.options);
-    view.lend_view(parts.scene);
-    parts.context.doneCurrent();
+    const SceneContent content = view.content();
+    parts.scene.set_mesh(content.mesh.get(), content.quality.get());
+    // Numbers of the present state are of no other state.
+    if (!content.coloring.is_of_one_state) parts.scene.set_coloring(content.coloring);
+    parts.scene.copy_view(view.scene(), true);
+    parts.graphics.done_current();
 }
 
-PictureStudio::~PictureStudio() {
-    Parts& parts = *parts_;
-    if (!parts.is_ready) return;
-    parts.context.makeCurrent(&parts.surface);
-    parts.window->Finalize();
-    parts.window->RemoveObserver(parts.events);
-    parts.window->RemoveRenderer(parts.scene.renderer());
-    parts.context.doneCurrent();
-}
+PictureStudio::~PictureStudio() = default;
 
 QImage PictureStudio::draw(const CurvedMesh& mesh, const QualityReport* quality, const PictureOptions& options) {
     Parts& parts = *parts_;
-    if (!parts.is_ready || !parts.context.makeCurrent(&parts.surface)) return {};
+    if (!parts.graphics.make_current()) return {};
     parts.scene.set_mesh(&mesh, quality);
-    const QImage image =
-        draw_picture(parts.scene, parts.window, parts.options, parts.shown_size, options, parts.largest_side);
-    parts.context.doneCurrent();
+    const QImage image = draw_picture(parts.scene, parts.graphics.window(), parts.options, parts.shown_size, options,
+                                      parts.graphics.largest_side());
+    parts.graphics.done_current();
     return image;
 }
 

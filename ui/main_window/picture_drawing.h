@@ -30,6 +30,12 @@ QString why_no_picture(QSize size, int largest_side);
 /// What the graphics can draw, pixels. pre: an OpenGL context is current.
 int largest_picture_side();
 
+/// How much larger it is drawn than it is: 1 or 2.
+int smoothing_factor(const PictureOptions& options, int largest_side);
+/// Gives a scene camera and options for a picture; what is drawn is factor times as large. shown, shown_size: as for
+/// draw_picture.
+void set_up_picture(MeshScene& scene, const SceneOptions& shown, QSize shown_size, const PictureOptions& options,
+                    int factor);
 /// Draws what a window of VTK shows once more, at another size, and leaves the window as it was. A view that is fitted
 /// to the window is fitted to the picture; any other one is in the picture as a whole. shown: what the view shows it
 /// with, and its size in device pixels. Null if the graphics fail. pre: the window's context is current,

@@ -49,10 +49,19 @@ void SurfacePainter::fit(const std::vector<double>& values) {
     if (coloring_.upper) scale_.upper = *coloring_.upper;
 }
 
-void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
-                           const QualityReport* quality) {
+void SurfacePainter::find_scale(const CurvedMesh& mesh) {
     scale_ = {coloring_.map, coloring_.is_reversed, coloring_.lower.value_or(0.0), coloring_.upper.value_or(1.0)};
     has_values_ = has_missing_ = false;
+    if (coloring_.source == Coloring::Source::distance_moved && coloring_.reference &&
+        coloring_.reference->rows() == mesh.coordinates().rows())
+        fit(scalar_values(displacements(mesh, *coloring_.reference), 3, -1));
+    if (coloring_.source == Coloring::Source::array && coloring_.array && fits(*coloring_.array, mesh.topology()))
+        fit(scalar_values(coloring_.array->values, coloring_.array->components, coloring_.component));
+}
+
+void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
+                           const QualityReport* quality) {
+    find_scale(mesh);
     switch (coloring_.source) {
         case Coloring::Source::scaled_jacobian:
             has_values_ = quality != nullptr;
@@ -64,9 +73,7 @@ void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellati
             return;
         case Coloring::Source::distance_moved:
             if (coloring_.reference && coloring_.reference->rows() == mesh.coordinates().rows()) {
-                std::vector<double> moved = displacements(mesh, *coloring_.reference);
-                fit(scalar_values(moved, 3, -1));
-                paint_nodes(surface, tessellation, std::move(moved), 3, -1);
+                paint_nodes(surface, tessellation, displacements(mesh, *coloring_.reference), 3, -1);
                 return;
             }
             break;
@@ -84,12 +91,11 @@ void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellati
 
 void SurfacePainter::paint_array(SurfaceActor& surface, const Tessellation& tessellation) {
     const FieldArray& array = *coloring_.array;
-    std::vector<double> scalars = scalar_values(array.values, array.components, coloring_.component);
-    fit(scalars);
     if (array.place == FieldArray::Place::nodes) {
         paint_nodes(surface, tessellation, array.values, array.components, coloring_.component);
         return;
     }
+    std::vector<double> scalars = scalar_values(array.values, array.components, coloring_.component);
     paint_elements(surface, tessellation, [scalars = std::move(scalars), scale = scale_](Index element) {
         const double value = scalars[static_cast<std::size_t>(element)];
         return std::isfinite(value) ? scale.color_of(value) : no_value_color();

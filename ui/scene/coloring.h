@@ -50,6 +50,8 @@ class SurfacePainter {
     /// Whether a motion changes the colours by itself.
     bool follows_motion() const { return coloring_.source == Coloring::Source::distance_moved; }
 
+    /// The scale and whether there are numbers, as paint() finds them.
+    void find_scale(const CurvedMesh& mesh);
     /// quality: null = there is no report. An array that does not fit the mesh has no values.
     void paint(SurfaceActor& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
                const QualityReport* quality);

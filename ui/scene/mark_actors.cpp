@@ -160,7 +160,9 @@ void MarkActors::place_texts(const ViewMetrics& view) {
         }
         const MarkText& mark = marks_.texts[i];
         const double size = 13.0 * view.pixel_ratio, rim = 1.3 * view.pixel_ratio;
+        place.text.set_font(font_);
         for (std::size_t k = 0; k < place.halo.size(); ++k) {
+            place.halo[k].set_font(font_);
             const double angle = 0.25 * 3.14159265358979 * static_cast<double>(k);
             place.halo[k].show(mark.text, at[0] + rim * std::cos(angle), at[1] + rim * std::sin(angle), size, ground_,
                                TextAnchor::center, true);

@@ -24,6 +24,7 @@ class MarkActors {
     }
     /// ground: of the view; accent: selection; ink: rubber bands and spokes.
     void set_colors(const Color& ground, const Color& accent, const Color& ink);
+    void set_font(const TextFont& font) { font_ = font; }
     /// Before every frame.
     void update(const ViewMetrics& view);
 
@@ -40,6 +41,7 @@ class MarkActors {
     };
 
     vtkRenderer* renderer_;
+    TextFont font_;
     Marks marks_;
     std::vector<std::unique_ptr<Text>> texts_;
     WorldFrame frame_;

@@ -12,7 +12,7 @@
 #include "ui/palette/marks.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/coloring.h"
-#include "ui/scene/text_font.h"
+#include "ui/scene/scene_options.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkRenderer;
@@ -21,36 +21,8 @@ class vtkRenderWindowInteractor;
 namespace curvewright {
 
 struct CameraState;
-
-/// What a clip plane takes away: the elements whose centre is on its positive side, or all that is there, through the
-/// elements.
-enum class ClipStyle { whole_elements, cut };
-
-struct ClipPlane {
-    std::array<double, 3> normal{1.0, 0.0, 0.0};  ///< unit
-    /// Position along the normal as a fraction of the mesh's extent in that direction: 0 hides all, 1 hides none.
-    double position = 0.5;
-    ClipStyle style = ClipStyle::whole_elements;
-    friend bool operator==(const ClipPlane&, const ClipPlane&) = default;
-};
-
-struct SceneOptions {
-    bool show_edges = true;
-    bool show_nodes = false;
-    bool show_node_numbers = false;     ///< the file's tags, as many as there is room for
-    bool show_element_numbers = false;  ///< likewise
-    bool show_legend = true;
-    std::optional<ClipPlane> clip;                    ///< 3D meshes only
-    bool is_orthographic = false;                     ///< 3D meshes in parallel projection
-    double element_size = 1.0;                        ///< below 1: gaps between the elements
-    std::optional<std::vector<Index>> only_elements;  ///< the others are hidden
-    Color background{1.0, 1.0, 1.0};
-    Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
-    Color edge_color{0.25, 0.27, 0.30};
-    Color accent{0.06, 0.40, 0.95};  ///< selection and handles
-    TextFont font;                   ///< of text, legend and numbers
-    double pixel_ratio = 1.0;        ///< device pixels per unit: scales lines, points, text
-};
+struct SceneContent;
+class ScenePreparation;
 
 /// The side that the camera is on: plus_z looks along -z, from above. `fit` keeps the direction.
 enum class ViewDirection { fit, plus_x, minus_x, plus_y, minus_y, plus_z, minus_z, isometric };
@@ -66,10 +38,20 @@ class MeshScene {
     MeshScene& operator=(const MeshScene&) = delete;
 
     vtkRenderer* renderer() const;
+    /// Draws the part of the picture that begins there: see TileRenderer.
+    void set_first_pixel(int x, int y);
 
     /// Shows a mesh (none = empty). quality may be null (neutral colours) or must be the report of this very mesh.
     /// The camera stays, unless the topology is another one than before: then the view is reset.
     void set_mesh(const CurvedMesh* mesh, const QualityReport* quality);
+    /// The same, and all that depends on it, in steps for large meshes: begins a drawing of what is to be shown
+    /// instead; its run() may be called on another thread while the scene goes on.
+    ScenePreparation prepare(SceneContent content) const;
+    /// Hands a part of what was made to the graphics; false: there is no more. May be left out: the next frame does it.
+    /// pre: the context of the renderer's window is current.
+    bool upload_next(ScenePreparation& preparation);
+    /// Shows what was made. The camera stays as with set_mesh. pre: as for upload_next, if there is a window.
+    void show(ScenePreparation preparation);
     /// A frame of a motion: the same mesh elsewhere. Cheaper than set_mesh: the camera's content stays, and curved
     /// sides are cut finer only now and then. set_mesh at the end puts everything right. quality: null = colours and
     /// marks stay as they are. positions: nodes × 3.
@@ -89,6 +71,7 @@ class MeshScene {
 
     /// Elements drawn with a selection outline; empty = none.
     void set_highlighted_elements(const std::vector<Index>& elements);
+    const std::vector<Index>& highlighted_elements() const;
 
     /// Sets the camera: `fit` keeps the direction. 2D meshes are always looked at face on, in parallel projection.
     void look(ViewDirection direction);

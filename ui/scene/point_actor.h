@@ -7,10 +7,10 @@
 
 #include "core/tessellate/plane_cut.h"
 #include "ui/palette/quality_colors.h"
+#include "ui/scene/upload_mapper.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
-class vtkOpenGLPolyDataMapper;
 class vtkPolyData;
 
 namespace curvewright {
@@ -39,7 +39,7 @@ class PointActor {
 
   private:
     vtkNew<vtkActor> actor_;
-    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<UploadMapper> mapper_;
     vtkNew<vtkPolyData> data_;
 };
 

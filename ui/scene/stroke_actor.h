@@ -10,11 +10,11 @@
 
 #include "core/tessellate/plane_cut.h"
 #include "ui/palette/quality_colors.h"
+#include "ui/scene/upload_mapper.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
 class vtkFloatArray;
-class vtkOpenGLPolyDataMapper;
 class vtkPolyData;
 
 namespace curvewright {
@@ -75,7 +75,7 @@ class StrokeActor {
     std::vector<Index> offsets_{0};  ///< of the lines
     vtkSmartPointer<vtkFloatArray> here_, previous_, next_;
     vtkNew<vtkActor> actor_;
-    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<UploadMapper> mapper_;
     vtkNew<vtkPolyData> data_;
 };
 

@@ -8,7 +8,6 @@
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
 #include <vtkLookupTable.h>
-#include <vtkOpenGLPolyDataMapper.h>
 #include <vtkOpenGLVertexBufferObject.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -48,7 +47,7 @@ constexpr const char* cut_code = R"(
 constexpr const char* hatch_code = R"(
 //VTK::Light::Impl
   if (hatchPeriod > 0.0) {
-    float position = (gl_FragCoord.x + gl_FragCoord.y) * 0.70710678;
+    float position = (gl_FragCoord.x + gl_FragCoord.y + hatchShift) * 0.70710678;
     float beside = abs(mod(position, hatchPeriod) - 0.5 * hatchPeriod);
     float stripe = clamp(0.5 * hatchWidth + 0.5 - beside, 0.0, 1.0);
     gl_FragData[0].rgb = mix(gl_FragData[0].rgb, hatchColor, stripe);
@@ -92,6 +91,7 @@ SurfaceActor::SurfaceActor() {
     vtkUniforms* uniforms = shader->GetFragmentCustomUniforms();
     uniforms->SetUniformf("hatchPeriod", 0.0f);
     uniforms->SetUniformf("hatchWidth", 0.0f);
+    uniforms->SetUniformf("hatchShift", 0.0f);
     uniforms->SetUniformf("surfaceStep", 0.0f);
     const float black[3] = {0.0f, 0.0f, 0.0f};
     uniforms->SetUniform3f("hatchColor", black);
@@ -237,6 +237,10 @@ void SurfaceActor::clear() {
     actor_->VisibilityOff();
 }
 
+bool SurfaceActor::is_empty() const {
+    return data_->GetNumberOfPoints() == 0;
+}
+
 void SurfaceActor::set_lit(bool is_lit) {
     if (is_lit == is_lit_) return;
     is_lit_ = is_lit;
@@ -267,6 +271,7 @@ void SurfaceActor::update(const ViewMetrics& view) {
     vtkUniforms* uniforms = actor_->GetShaderProperty()->GetFragmentCustomUniforms();
     uniforms->SetUniformf("surfaceStep", static_cast<float>(step_width * view.pixel_ratio));
     if (!is_hatched_) return;
+    uniforms->SetUniformf("hatchShift", static_cast<float>(view.tile_shift));
     uniforms->SetUniformf("hatchPeriod", static_cast<float>(hatch_period * view.pixel_ratio));
     uniforms->SetUniformf("hatchWidth", static_cast<float>(hatch_width * view.pixel_ratio));
 }

@@ -9,10 +9,10 @@
 #include "core/tessellate/plane_cut.h"
 #include "core/tessellate/tessellation.h"
 #include "ui/palette/color_map.h"
+#include "ui/scene/upload_mapper.h"
 #include "ui/scene/view_metrics.h"
 
 class vtkActor;
-class vtkOpenGLPolyDataMapper;
 class vtkPolyData;
 
 namespace curvewright {
@@ -37,6 +37,7 @@ class SurfaceActor {
     /// values: one per surface point, NaN = none; between the points they, not their colours, are interpolated.
     void set_field(const std::vector<double>& values, const ColorScale& scale);
     void clear();
+    bool is_empty() const;
     /// What lies beyond the plane is left out; none: nothing is. origin: of the points.
     void set_cut(const std::optional<CuttingPlane>& plane, const Eigen::RowVector3d& origin, double mesh_size);
 
@@ -50,7 +51,7 @@ class SurfaceActor {
   private:
     bool is_lit_ = false, is_hatched_ = false;
     vtkNew<vtkActor> actor_;
-    vtkNew<vtkOpenGLPolyDataMapper> mapper_;
+    vtkNew<UploadMapper> mapper_;
     vtkNew<vtkPolyData> data_;
 };
 

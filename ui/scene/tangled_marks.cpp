@@ -8,7 +8,6 @@
 #include <optional>
 
 #include <vtkActor.h>
-#include <vtkRenderer.h>
 
 #include "ui/scene/element_spacing.h"
 
@@ -46,10 +45,12 @@ bool is_tangled(const ElementQuality& quality) {
 
 }  // namespace
 
-TangledMarks::TangledMarks(vtkRenderer* renderer) {
-    for (vtkActor* actor : {undecided_halo_.actor(), undecided_.actor(), hatched_.actor(), hatched_section_.actor(),
-                            halo_.actor(), outline_.actor(), ring_halo_.actor(), ring_.actor(), inside_ring_.actor()})
-        renderer->AddActor(actor);
+std::vector<vtkActor*> TangledMarks::actors() const {
+    return {undecided_halo_.actor(), undecided_.actor(), hatched_.actor(), hatched_section_.actor(), halo_.actor(),
+            outline_.actor(),        ring_halo_.actor(), ring_.actor(),    inside_ring_.actor()};
+}
+
+TangledMarks::TangledMarks() {
     for (SurfaceActor* surface : {&hatched_, &hatched_section_}) surface->actor()->PickableOff();
     // The halo is white on dark backgrounds as well: it has to part the alarm colour from the mesh, which is light.
     constexpr Color white{1.0, 1.0, 1.0};

@@ -6,7 +6,7 @@
 #include "ui/scene/stroke_actor.h"
 #include "ui/scene/surface_actor.h"
 
-class vtkRenderer;
+class vtkActor;
 
 namespace curvewright {
 
@@ -15,7 +15,10 @@ namespace curvewright {
 /// have a dotted outline.
 class TangledMarks {
   public:
-    explicit TangledMarks(vtkRenderer* renderer);
+    TangledMarks();
+
+    /// In the order in which they are drawn.
+    std::vector<vtkActor*> actors() const;
 
     /// visible: one flag per element; empty = all. drawn: the surface of the visible elements. A tangled element that
     /// has no part in it lies inside the mesh: its ring is dotted and always there. section: where the mesh is cut,

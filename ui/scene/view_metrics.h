@@ -23,6 +23,7 @@ struct WorldFrame {
 /// What the drawing of one frame needs to know of camera and window.
 struct ViewMetrics {
     std::array<int, 2> size{1, 1};  ///< of the viewport, device pixels
+    int tile_shift = 0;             ///< x + y of the first pixel, where only a part of the viewport is drawn
     double pixel_ratio = 1.0;       ///< device pixels per unit of lines, points and text
     bool is_parallel = true;
     /// Device pixels per world unit: everywhere (parallel), or times the distance from the camera (perspective).

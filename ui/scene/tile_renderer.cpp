@@ -1,0 +1,9 @@
+#include "ui/scene/tile_renderer.h"
+
+#include <vtkObjectFactory.h>
+
+namespace curvewright {
+
+vtkStandardNewMacro(TileRenderer);
+
+}  // namespace curvewright
