@@ -52,6 +52,10 @@ void draw(QPainter& painter, const QualityComparison& comparison) {
         drawing.marked_bar = HistogramBars::no_bar;
         drawing.band_last = HistogramBars::no_bar;
         drawing.draw(painter, ink);
+        painter.setPen(ink.muted);
+        painter.drawText(QRectF(left, margin, width - 8, 16), Qt::AlignRight | Qt::AlignVCenter,
+                         drawing.is_logarithmic ? tr("elements by scaled Jacobian, logarithmic")
+                                                : tr("elements by scaled Jacobian"));
     };
     const auto write = [&](const QString& text, int left, int line, int width) {
         painter.setFont(font);
@@ -125,6 +129,7 @@ QByteArray comparison_svg(const QualityComparison& comparison) {
     buffer.open(QIODevice::WriteOnly);
     QSvgGenerator generator;
     generator.setOutputDevice(&buffer);
+    generator.setResolution(96);  // of browsers
     generator.setSize(size);
     generator.setViewBox(QRect(QPoint(0, 0), size));
     generator.setTitle(tr("Scaled Jacobian, before and now"));
