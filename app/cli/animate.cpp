@@ -1,5 +1,9 @@
 #include <cmath>
 #include <cstdio>
+#include <fstream>
+#include <limits>
+#include <map>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -10,20 +14,24 @@
 #include "core/io/animation_file.h"
 #include "core/io/deformation_file.h"
 #include "core/session/frames.h"
+#include "core/session/timeline_frames.h"
+#include "core/timeline/recorder.h"
+#include "core/untangle/trace_reader.h"
 #include "ui/scene/offscreen.h"
 
 namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, deformation;
-    std::filesystem::path output;  ///< folder for pictures, or an animation's file
+    std::filesystem::path mesh, deformation, trace;  ///< one of the two: what is shown
+    std::filesystem::path output;                    ///< folder for pictures, or an animation's file
     int frames = 60;
     int width = 1920, height = 1080;
     bool goes_back = false, shows_legend = true, is_transparent = false;
     double frames_per_second = 30., quality = 90.;  ///< of an animation
     bool is_lossless = false;
     WarpOptions warp;
+    StepLevel level = StepLevel::patch;  ///< of a trace
 };
 
 /// "WxH", both even, as videos need it.
@@ -48,6 +56,7 @@ void show(MeshScene& scene, FrameSource& film, int index, int number, int count,
     context.report(fmt::format("Frame {} of {}", number + 1, count), static_cast<double>(number) / count);
     const Frame frame = film.make(index, {context.stop, {}});
     scene.set_mesh(&frame.mesh, frame.quality ? &*frame.quality : nullptr);
+    scene.set_highlighted_elements(frame.highlighted);
     if (frame.quality) least = std::min(least, frame.quality->summary.min);
 }
 
@@ -63,11 +72,12 @@ void write_pictures(const Options& options, MeshScene& scene, FrameSource& film,
         throw InvalidInput(options.output.string(), 0, fmt::format("the folder cannot be made ({}).", error.message()));
     std::vector<std::filesystem::path> written;
     try {
-        for (int index = 0; index < options.frames; ++index) {
-            show(scene, film, index, index, options.frames, least, context);
+        const int frames = film.count();
+        for (int index = 0; index < frames; ++index) {
+            show(scene, film, index, index, frames, least, context);
             written.push_back(file_of(options, index + 1));
             render_png(scene, options.width, options.height, written.back(), ground_of(options));
-            if (!options.goes_back || index == 0 || index == options.frames - 1) continue;
+            if (!options.goes_back || index == 0 || index == frames - 1) continue;
             // The way back shows the same.
             written.push_back(file_of(options, pictures - index + 1));
             std::filesystem::copy_file(file_of(options, index + 1), written.back(),
@@ -86,17 +96,16 @@ std::uintmax_t write_animation(const Options& options, MeshScene& scene, FrameSo
     AnimationFile file(options.output, {options.width, options.height, options.frames_per_second, options.is_lossless,
                                         options.quality});
     for (int number = 0; number < pictures; ++number) {
-        show(scene, film, there_and_back(number, options.frames), number, pictures, least, context);
+        show(scene, film, there_and_back(number, film.count()), number, pictures, least, context);
         file.add(rgba_from_top(render_pixels(scene, options.width, options.height, ground_of(options))),
                  {context.stop, {}});
     }
     return file.finish({context.stop, {}});
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+/// The way of a warp. certified with the orientation that the mesh has at its start.
+std::unique_ptr<FrameSource> film_of_warp(const CurvedMesh& mesh, const Options& options, const TaskContext& context,
+                                          Json& timings) {
     auto deformation = std::make_shared<const Deformation>(read_deformation(options.deformation, context));
     std::optional<double> sign;
     if (is_assessable(mesh)) sign = certify(mesh, context, timings).orientation_sign;
@@ -104,27 +113,46 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     warp_options.prescribed_nodes = prescribed_interior_nodes(mesh, *deformation);
     const CurvedMesh end =
         mesh.with_coordinates(warp(mesh, apply_deformation(mesh, *deformation), warp_options, context).coordinates);
-    MotionFrames film(end, sign, {{"Warp", mesh.coordinates(), end.coordinates(), deformation, options.warp}},
-                      options.frames);
+    return std::make_unique<MotionFrames>(
+        end, sign, std::vector<MotionLeg>{{"Warp", mesh.coordinates(), end.coordinates(), deformation, options.warp}},
+        options.frames);
+}
+
+/// The steps of an untangling.
+std::unique_ptr<FrameSource> film_of_trace(const CurvedMesh& mesh, const Options& options, const TaskContext& context) {
+    std::ifstream stream(options.trace);
+    if (!stream) throw InvalidInput(options.trace.string(), 0, "the file cannot be opened.");
+    Recorder recorder({}, context);
+    read_trace(stream, options.trace.string(), mesh, recorder, context);
+    const auto recording = recorder.finish();
+    return std::make_unique<TimelineFrames>(recording, options.level, options.frames, 0, recording->step_count() - 1);
+}
+
+int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+    const Stopwatch watch;
+    Json timings = Json::object();
+    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+    const std::unique_ptr<FrameSource> film =
+        options.trace.empty() ? film_of_warp(mesh, options, context, timings) : film_of_trace(mesh, options, context);
     MeshScene scene;
     SceneOptions scene_options;
     scene_options.font = find_text_font();
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
     scene_options.show_legend = options.shows_legend;
     scene.set_options(scene_options);
-    const int pictures = options.goes_back ? 2 * (options.frames - 1) : options.frames;
+    const int pictures = options.goes_back ? 2 * (film->count() - 1) : film->count();
     const bool is_animation = AnimationFile::is_animation(options.output);
-    double least = 1.0;
+    double least = std::numeric_limits<double>::infinity();
     std::uintmax_t bytes = 0;
     if (is_animation)
-        bytes = write_animation(options, scene, film, pictures, least, context);
+        bytes = write_animation(options, scene, *film, pictures, least, context);
     else
-        write_pictures(options, scene, film, pictures, least, context);
+        write_pictures(options, scene, *film, pictures, least, context);
     finish_timings(timings, watch);
     const double seconds = pictures / options.frames_per_second;
     if (invocation.common.json) {
         Json result = {{"mesh", mesh_json(options.mesh, mesh)},
-                       {"min_on_the_way", sign ? Json(least) : Json()},
+                       {"min_on_the_way", least <= 1.0 ? Json(least) : Json()},
                        {"timings", timings}};
         if (is_animation)
             result["animation"] = {{"file", options.output.string()},
@@ -155,10 +183,23 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 }  // namespace
 
 void add_animate(CLI::App& app, Invocation& invocation) {
-    auto* command = add_command(app, invocation, "animate", "Pictures or an animation of a warp on its way");
+    auto* command = add_command(app, invocation, "animate",
+                                "Pictures or an animation of a warp on its way, or of the steps of an untangling");
     auto options = std::make_shared<Options>();
     add_input_option(*command, options->mesh, "MESH");
-    add_deformation_option(*command, options->deformation);
+    auto* deformation =
+        command->add_option("--deformation", options->deformation, "Operations (.json), node table (.csv) or a mesh")
+            ->type_name("D");
+    command
+        ->add_option("--trace", options->trace,
+                     "Instead: the steps that untangle --trace has written of this mesh, at most --frames of them")
+        ->type_name("FILE.jsonl")
+        ->excludes(deformation);
+    const std::map<std::string, StepLevel> levels{
+        {"pass", StepLevel::pass}, {"patch", StepLevel::patch}, {"iteration", StepLevel::iteration}};
+    command->add_option("--level", options->level, "Steps of a trace that are shown: pass, patch (default), iteration")
+        ->type_name("LEVEL")
+        ->transform(CLI::CheckedTransformer(levels).description(""));
     command
         ->add_option("-o,--output", options->output,
                      "Folder for the pictures, MESH-0001.png and so on; or a file that ends in .webp for an animation "
@@ -187,6 +228,10 @@ void add_animate(CLI::App& app, Invocation& invocation) {
     command->add_flag("--lossless", options->is_lossless, "Animation: every pixel as it was drawn")
         ->excludes("--quality");
     command->parse_complete_callback([command, options] {
+        if (options->deformation.empty() == options->trace.empty())
+            throw CLI::RequiredError("--deformation or --trace");
+        if (options->trace.empty() && command->count("--level") > 0)
+            throw CLI::ValidationError("--level", "is for --trace");
         if (AnimationFile::is_animation(options->output)) return;
         for (const char* name : {"--fps", "--quality", "--lossless"})
             if (command->count(name) > 0) throw CLI::ValidationError(name, "is for an output that ends in .webp");

@@ -18,6 +18,7 @@ struct Frame {
     CurvedMesh mesh;
     std::optional<QualityReport> quality;  ///< none: its elements cannot be assessed
     std::string caption;                   ///< what happens, one line
+    std::vector<Index> highlighted = {};   ///< elements that it happens to
 };
 
 /// The pictures of a film, made one after another on whatever thread asks for them. A motion between states is one; the

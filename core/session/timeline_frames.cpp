@@ -28,7 +28,8 @@ Frame TimelineFrames::make(int index, const TaskContext& context) {
     const StepNumber step = steps_[static_cast<std::size_t>(index)];
     cursor_.seek(step, context);
     return {cursor_.recording().mesh().with_coordinates(cursor_.coordinates()), cursor_.quality(),
-            step_caption(cursor_.recording(), step)};
+            step_caption(cursor_.recording(), step),
+            cursor_.patch() ? cursor_.patch()->elements : std::vector<Index>()};
 }
 
 std::string step_caption(const Recording& recording, StepNumber step) {

@@ -232,6 +232,40 @@ TEST_F(CommandLine, AnimateWritesAnAnimation) {
     EXPECT_FALSE(std::filesystem::exists(folder / "none"));
 }
 
+TEST_F(CommandLine, AnimateWritesTheStepsOfATrace) {
+    const std::string deformation = folder / "shift.json", start = folder / "start.msh", trace = folder / "steps.jsonl",
+                      film = folder / "steps.webp";
+    write(deformation,
+          R"({"operations": [{"group": "inner", "type": "rotate", "center": [0, 0, 0], "angle_deg": 30}]})");
+    ASSERT_EQ(cli({"deform", annulus, "--deformation", deformation, "-o", start}).status, 0);
+    ASSERT_LE(cli({"untangle", start, "-o", folder / "out.msh", "--beta", "0.5", "--max-passes", "3", "--trace", trace})
+                  .status,
+              3);
+    const auto animate = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"animate", annulus, "--trace", trace, "--size", "160x120"});
+        return cli(more);
+    };
+    // The mesh may be in another state: the trace knows where it began.
+    const ProcessResult passes = animate({"-o", film, "--level", "pass", "--lossless", "--json"});
+    ASSERT_EQ(passes.status, 0) << passes.errors;
+    // Start, passes, end; two pictures that are the same are one that is longer.
+    EXPECT_GE(Json::parse(passes.output)["animation"]["count"], 4);
+    const testing::DecodedAnimation decoded(read(film));
+    ASSERT_GE(decoded.frames.size(), 3u);
+    EXPECT_GT(testing::DecodedAnimation::difference(decoded.frames[0], decoded.frames[1]), 0.02);
+    const ProcessResult some = animate({"-o", folder / "pictures", "--frames", "7", "--json"});
+    ASSERT_EQ(some.status, 0) << some.errors;
+    EXPECT_EQ(Json::parse(some.output)["pictures"]["count"], 7);
+
+    EXPECT_EQ(animate({"-o", film, "--deformation", deformation}).status, 2);
+    EXPECT_EQ(animate({"-o", film, "--level", "round"}).status, 2);
+    EXPECT_EQ(cli({"animate", annulus, "-o", film}).status, 2);
+    EXPECT_EQ(cli({"animate", annulus, "--deformation", deformation, "--level", "pass", "-o", film}).status, 2);
+    expect_bad_input({"animate", annulus, "--trace", folder / "none.jsonl", "-o", film}, "none.jsonl");
+    write(trace, "{\"event\": \"dance\"}\n");
+    expect_bad_input({"animate", annulus, "--trace", trace, "-o", film}, "steps.jsonl:1");
+}
+
 TEST_F(CommandLine, BadInputGetsOneSentenceAndNoOutput) {
     const std::string out = folder / "out.msh", bad = folder / "bad.msh", deformation = folder / "d.json";
     expect_bad_input({"quality", folder / "missing.msh"}, "missing.msh");

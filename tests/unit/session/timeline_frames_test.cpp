@@ -22,6 +22,7 @@ TEST(TimelineFrames, AreTheStepsOfTheRecording) {
         cursor.seek(passes.steps()[static_cast<std::size_t>(index)]);
         EXPECT_EQ(frame.mesh.coordinates(), cursor.coordinates());
         EXPECT_EQ(frame.quality->summary.min, cursor.quality().summary.min);
+        EXPECT_TRUE(frame.highlighted.empty());
         EXPECT_NE(frame.caption.find("pass " + std::to_string(index)), std::string::npos) << frame.caption;
     }
     TimelineFrames some(recording, StepLevel::iteration, 25, 0, last);
@@ -32,6 +33,7 @@ TEST(TimelineFrames, AreTheStepsOfTheRecording) {
     EXPECT_EQ(part.steps().front(), recording->passes()[1].first);
     EXPECT_EQ(part.steps().back(), recording->passes()[1].last);
     EXPECT_GT(part.count(), 10);
+    EXPECT_EQ(part.make(1, {}).highlighted.size(), 2u);  // the triangles at an edge
     EXPECT_THROW(TimelineFrames(recording, StepLevel::pass, 0, 5, 4), InvalidInput);
     EXPECT_THROW(TimelineFrames(recording, StepLevel::pass, 0, 0, last + 1), InvalidInput);
 }
