@@ -1,6 +1,7 @@
 #include "core/report/report_course.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ constexpr std::size_t listed_passes = 24, listed_patches = 12, drawn_patches = 8
 std::string stop_text(StopReason reason) {
     switch (reason) {
         case StopReason::converged:
-            return "It ended because nothing more was to be gained.";
+            return "It ended by itself: what it was after is reached, or nothing more was to be gained.";
         case StopReason::untangled:
             return "It ended because every element was proved valid.";
         case StopReason::pass_limit:
@@ -118,8 +119,11 @@ std::string patch_table(const std::vector<Patch>& patches) {
 /// The rounds of the patches of one pass of the guaranteed method.
 std::string round_charts(const RunReport& report, int pass, const std::vector<Patch>& patches) {
     std::map<int, std::array<ChartLine, 3>> lines;  // of patches: least scaled Jacobian, not valid, objective
-    for (std::size_t i = 0; i < std::min(drawn_patches, patches.size()); ++i)
-        for (ChartLine& line : lines[patches[i].patch]) line.is_accent = i == 0;
+    for (std::size_t i = 0; i < std::min(drawn_patches, patches.size()); ++i) {
+        std::array<ChartLine, 3>& three = lines[patches[i].patch];
+        for (ChartLine& line : three) line.is_accent = i == 0;
+        three[0].points.emplace_back(0, patches[i].min_scaled_jacobian_before);
+    }
     bool has_not_valid = false;
     for (const Round& round : report.round_list) {
         const auto found = lines.find(round.patch);
@@ -148,7 +152,7 @@ std::string guaranteed_details(const RunReport& report) {
     std::string html =
         "<p class=\"note\">A patch is a set of elements whose free nodes are moved together. Below, each line is a "
         "patch, the blue one that which began worst. A certificate is asked for when all samples are positive, so the "
-        "curves of the scaled Jacobian may begin late. While elements are made valid, the objective is the foldover "
+        "curves of the scaled Jacobian may jump from the start to the last minimisation. While elements are made valid, the objective is the foldover "
         "energy; while improving, first the energy and then a soft minimum that is sharpened with every minimisation, "
         "so that its value jumps there.</p>\n";
     std::size_t drawn = 0;

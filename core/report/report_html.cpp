@@ -149,12 +149,17 @@ std::string element_table(const std::vector<ReportElement>& list, const ReportCo
         "<table><thead><tr><th class=\"number\">element</th><th>type</th><th>groups</th><th>centre</th><th>before</th>"
         "<th>after</th></tr></thead><tbody>";
     for (const ReportElement& entry : list) {
+        // What rounding leaves of a zero would be told as a number.
+        double size = 0.0;
+        for (const double x : entry.center) size = std::max(size, std::abs(x));
+        const auto place = [&](std::size_t i) {
+            return short_number_text(std::abs(entry.center[i]) < 1e-12 * size ? 0.0 : entry.center[i]);
+        };
         std::string groups;
         for (const std::string& group : entry.groups) groups += (groups.empty() ? "" : ", ") + escaped(group);
         html += fmt::format(
             "<tr><td class=\"number tag\">{}</td><td>{}</td><td>{}</td><td>({}, {}, {})</td><td>{}</td><td>{}</td></tr>",
-            entry.tag, name(entry.type), groups, short_number_text(entry.center[0]),
-            short_number_text(entry.center[1]), short_number_text(entry.center[2]), quality_text(entry.before, colors),
+            entry.tag, name(entry.type), groups, place(0), place(1), place(2), quality_text(entry.before, colors),
             quality_text(entry.after, colors));
     }
     return html + "</tbody></table>\n";

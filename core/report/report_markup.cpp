@@ -89,9 +89,8 @@ std::string escaped(std::string_view text) {
 std::string number_text(double value) {
     if (!std::isfinite(value)) return "–";
     if (value == 0.0) return "0";
-    std::string text = fmt::format("{:#.4g}", value);
-    if (text.back() == '.') text.pop_back();
-    return with_signs(text);
+    const bool has_fraction = std::abs(value) < 999.95;
+    return with_signs(has_fraction ? fmt::format("{:#.4g}", value) : fmt::format("{:.4g}", value));
 }
 
 std::string short_number_text(double value) {

@@ -28,6 +28,7 @@ void MainWindow::ask_report() {
     if (!last_untangling(document_) || is_busy()) return;
     const QString chosen = dialogs_.choose_folder(this, tr("Folder for the report"), last_folder());
     if (chosen.isEmpty()) return;
+    remember_folder(QDir(chosen).filePath(QStringLiteral("report")));
     ReportRequest request;
     request.folder = free_report_folder(chosen, document_.file_name());
     request.colors = report_colors();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -19,17 +20,26 @@ class ReportPainter {
     /// All of them must live as long as the painter.
     ReportPainter(const CurvedMesh& before, const QualityReport& quality_before, const CurvedMesh& after,
                   const QualityReport& quality_after);
+    ~ReportPainter();
 
     /// The bytes of a PNG file. Throws Unsupported where nothing can be drawn (see render_png).
     std::string paint(const PictureWish& wish);
 
   private:
-    void look_at(Index element);
+    struct State {
+        const CurvedMesh& mesh;
+        const QualityReport& quality;
+    };
+    struct Surroundings;
 
-    const CurvedMesh &before_, &after_;
-    const QualityReport &quality_before_, &quality_after_;
+    std::string paint_whole(const PictureWish& wish);
+    std::string paint_element(const PictureWish& wish);
+    std::vector<Index> neighbours(Index element, const Eigen::RowVector3d& center, double radius);
+
+    State before_, after_;
     MeshScene scene_;
-    std::optional<NodeElements> node_elements_;
+    std::optional<NodeElements> node_elements_;      ///< 3D
+    std::unique_ptr<Surroundings> surroundings_;     ///< of the element that was painted last
 };
 
 }  // namespace curvewright
