@@ -30,9 +30,8 @@ Json run_json(const MeshTopology& topology, const UntangleOptions& options, cons
               const UntangleRun& run) {
     Json json = {{"method", method_name(options)}};
     if (const auto* guaranteed = std::get_if<GuaranteedOptions>(&options)) {
-        json.update({{"rounds", run.rounds},
-                     {"stopped", to_string(run.reason)},
-                     {"unmended", unmended_json(topology, run)}});
+        json.update(
+            {{"rounds", run.rounds}, {"stopped", to_string(run.reason)}, {"unmended", unmended_json(topology, run)}});
         if (!guaranteed->boundary.is_all_fixed())
             json["boundary"] = {{"sliding_nodes", run.sliding_nodes},
                                 {"free_nodes", run.free_nodes},
@@ -40,8 +39,7 @@ Json run_json(const MeshTopology& topology, const UntangleOptions& options, cons
         return json;
     }
     if (const auto* signed_angles = std::get_if<SignedAngleOptions>(&options))
-        json["beta"] =
-            signed_angles->beta_choice == BetaChoice::automatic ? Json("auto") : Json(signed_angles->beta);
+        json["beta"] = signed_angles->beta_choice == BetaChoice::automatic ? Json("auto") : Json(signed_angles->beta);
     if (const auto* unsigned_angles = std::get_if<UnsignedAngleOptions>(&options))
         json["literal"] = !unsigned_angles->is_guarded;
     json.update({{"passes", run.passes}, {"stopped", to_string(run.reason)}});
@@ -54,8 +52,8 @@ std::string run_text(const MeshTopology& topology, const UntangleOptions& option
     const auto seconds = [&timings](const char* name) { return timings.value(name, 0.0); };
     const auto* guaranteed = std::get_if<GuaranteedOptions>(&options);
     if (!guaranteed) return passes_text(run, seconds("warp") + seconds("untangle"));
-    std::string text = fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", seconds("untangle"),
-                                   seconds("improve"));
+    std::string text =
+        fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", seconds("untangle"), seconds("improve"));
     constexpr std::size_t listed = 5;
     for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i)
         text += fmt::format("\nelement {} cannot be mended with the boundary as it is: {}",

@@ -23,8 +23,8 @@ std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, c
     for (const auto& [name, seconds] : timings.items()) source.timings.emplace_back(name, seconds.get<double>());
     const RunReport report = collect_report(source, context);
     ReportPainter painter(facts.before, facts.quality_before, facts.after, facts.quality_after);
-    const ReportPictures pictures =
-        draw_pictures(report, [&painter](const PictureWish& wish) { return painter.paint(wish); }, context);
+    const ReportPictures pictures = draw_pictures(
+        report, [&painter](const PictureWish& wish) { return painter.paint(wish); }, context);
     if (!pictures.note.empty() && !invocation.common.quiet)
         fmt::print(stderr, "The report has no pictures: {}\n", pictures.note);
     auto files = std::make_unique<ReportFiles>(folder, report, pictures, report_colors());

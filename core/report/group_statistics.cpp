@@ -23,9 +23,8 @@ void add_owners(const MeshTopology& topology, const NodeElements& node_elements,
                 std::vector<bool>& is_in) {
     for (const Index element : node_elements.of(cell.front())) {
         const auto nodes = topology.element_nodes(element);
-        if (std::all_of(cell.begin(), cell.end(), [&](Index node) {
-                return std::find(nodes.begin(), nodes.end(), node) != nodes.end();
-            }))
+        if (std::all_of(cell.begin(), cell.end(),
+                        [&](Index node) { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); }))
             is_in[static_cast<std::size_t>(element)] = true;
     }
 }

@@ -71,8 +71,8 @@ std::string histogram_svg(const ReportHistogram& histogram, Index highest, const
         if (count == 0) return 0.0;
         return (base - top) * std::log1p(static_cast<double>(count)) / std::log1p(static_cast<double>(highest));
     };
-    std::string svg = fmt::format(
-        "<svg class='chart' viewBox='0 0 {} {}' role='img' aria-label='{}'>", width, height, escaped(title));
+    std::string svg = fmt::format("<svg class='chart' viewBox='0 0 {} {}' role='img' aria-label='{}'>", width, height,
+                                  escaped(title));
     for (Index tick = 1; tick <= highest && tick <= 100000000; tick *= 10) {
         const double y = base - height_of(tick);
         svg += fmt::format("<line x1='{}' x2='{}' y1='{:.1f}' y2='{:.1f}' {}/>", left, width - right, y, y, grid_style);

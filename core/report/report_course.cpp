@@ -152,7 +152,8 @@ std::string guaranteed_details(const RunReport& report) {
     std::string html =
         "<p class=\"note\">A patch is a set of elements whose free nodes are moved together. Below, each line is a "
         "patch, the blue one that which began worst. A certificate is asked for when all samples are positive, so the "
-        "curves of the scaled Jacobian may jump from the start to the last minimisation. While elements are made valid, the objective is the foldover "
+        "curves of the scaled Jacobian may jump from the start to the last minimisation. While elements are made "
+        "valid, the objective is the foldover "
         "energy; while improving, first the energy and then a soft minimum that is sharpened with every minimisation, "
         "so that its value jumps there.</p>\n";
     std::size_t drawn = 0;
@@ -163,8 +164,8 @@ std::string guaranteed_details(const RunReport& report) {
                             pass.patches == 1 ? "patch" : "patches");
         html += round_charts(report, pass.pass, patches) + patch_table(patches);
         if (static_cast<std::size_t>(pass.patches) > listed_patches)
-            html += fmt::format("<p class=\"note\">The {} that began worst; report.json has more.</p>\n",
-                                listed_patches);
+            html +=
+                fmt::format("<p class=\"note\">The {} that began worst; report.json has more.</p>\n", listed_patches);
     }
     return html;
 }

@@ -35,7 +35,8 @@ void check_report_folder(const fs::path& given, const std::vector<fs::path>& oth
         throw InvalidInput(name, 0, "the report needs a folder, and this is something else.");
     const fs::path parent = is_there ? folder : folder.has_parent_path() ? folder.parent_path() : fs::path(".");
     if (!fs::is_directory(parent, error))
-        throw InvalidInput(name, 0, fmt::format("there is no folder {} to make the report's folder in.", parent.string()));
+        throw InvalidInput(name, 0,
+                           fmt::format("there is no folder {} to make the report's folder in.", parent.string()));
     if (::access(parent.c_str(), W_OK | X_OK) != 0)
         throw InvalidInput(name, 0, "the report cannot be written there; the folder is not writable.");
     for (const char* file : {report_html_name, report_json_name}) {

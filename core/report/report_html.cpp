@@ -46,9 +46,9 @@ std::string head_section(const RunReport& report) {
                                                    count_text(after.invalid + after.undecided)));
     html += fact("Least scaled Jacobian", number_text(before.min) + " → " + number_text(after.min));
     html += fact("Mean scaled Jacobian", number_text(before.mean) + " → " + number_text(after.mean));
-    html += fact("Nodes moved", fmt::format("{} of {}",
-                                            count_text(report.moved_interior_nodes + report.moved_boundary_nodes),
-                                            count_text(report.nodes)));
+    html += fact("Nodes moved",
+                 fmt::format("{} of {}", count_text(report.moved_interior_nodes + report.moved_boundary_nodes),
+                             count_text(report.nodes)));
     html += "</dl>\n";
     html +=
         "<p class=\"note\">The scaled Jacobian of an element is the least of its Jacobian determinant divided by the "
@@ -158,7 +158,8 @@ std::string element_table(const std::vector<ReportElement>& list, const ReportCo
         std::string groups;
         for (const std::string& group : entry.groups) groups += (groups.empty() ? "" : ", ") + escaped(group);
         html += fmt::format(
-            "<tr><td class=\"number tag\">{}</td><td>{}</td><td>{}</td><td>({}, {}, {})</td><td>{}</td><td>{}</td></tr>",
+            "<tr><td class=\"number tag\">{}</td><td>{}</td><td>{}</td><td>({}, {}, "
+            "{})</td><td>{}</td><td>{}</td></tr>",
             entry.tag, name(entry.type), groups, place(0), place(1), place(2), quality_text(entry.before, colors),
             quality_text(entry.after, colors));
     }
@@ -167,12 +168,14 @@ std::string element_table(const std::vector<ReportElement>& list, const ReportCo
 
 std::string worst_section(const RunReport& report, const ReportPictures& pictures, const ReportColors& colors) {
     if (report.worst_before.empty()) return {};
-    std::string html = "<h2>Worst elements</h2>\n<h3>The worst before</h3>\n" + element_table(report.worst_before, colors) +
-                       "<h3>The worst after</h3>\n" + element_table(report.worst_after, colors);
+    std::string html = "<h2>Worst elements</h2>\n<h3>The worst before</h3>\n" +
+                       element_table(report.worst_before, colors) + "<h3>The worst after</h3>\n" +
+                       element_table(report.worst_after, colors);
     const std::vector<PictureWish> wishes = picture_wishes(report);
     if (pictures.png.size() != wishes.size() || wishes.size() <= 2) return html;
-    html += "<h3>From near</h3>\n<p class=\"note\">Each element, outlined, among its neighbours, before and after from "
-            "the same place";
+    html +=
+        "<h3>From near</h3>\n<p class=\"note\">Each element, outlined, among its neighbours, before and after from "
+        "the same place";
     html += report.dimension == 3 ? "; neighbours in front of it are left out.</p>\n" : ".</p>\n";
     const auto entry_of = [&](Index element) {
         for (const auto* list : {&report.worst_before, &report.worst_after})
@@ -186,9 +189,9 @@ std::string worst_section(const RunReport& report, const ReportPictures& picture
             return fmt::format("Element {} {}: {}, {}", entry.tag, when, number_text(quality.scaled_jacobian),
                                validity_text(quality.validity));
         };
-        html += fmt::format("<div class=\"pair card\">{}{}</div>\n",
-                            picture(pictures.png[i], text("before", entry.before)),
-                            picture(pictures.png[i + 1], text("after", entry.after)));
+        html +=
+            fmt::format("<div class=\"pair card\">{}{}</div>\n", picture(pictures.png[i], text("before", entry.before)),
+                        picture(pictures.png[i + 1], text("after", entry.after)));
     }
     return html;
 }
@@ -214,13 +217,14 @@ std::string certificate_section(const RunReport& report, const ReportColors& col
         html += "</p>\n";
         constexpr std::size_t listed = 50;
         html +=
-            "<table><thead><tr><th class=\"number\">element</th><th>scaled Jacobian</th><th>why</th></tr></thead><tbody>";
+            "<table><thead><tr><th class=\"number\">element</th><th>scaled "
+            "Jacobian</th><th>why</th></tr></thead><tbody>";
         for (std::size_t i = 0; i < std::min(listed, report.not_valid.size()); ++i) {
             const ReportUnproved& entry = report.not_valid[i];
-            html += fmt::format("<tr><td class=\"number tag\">{}</td><td>{}</td><td>{}{}</td></tr>", entry.tag,
-                                quality_text(entry.quality, colors), escaped(entry.reason),
-                                entry.is_impossible ? fmt::format(" (proved: at most {})", number_text(entry.bound))
-                                                    : std::string());
+            html += fmt::format(
+                "<tr><td class=\"number tag\">{}</td><td>{}</td><td>{}{}</td></tr>", entry.tag,
+                quality_text(entry.quality, colors), escaped(entry.reason),
+                entry.is_impossible ? fmt::format(" (proved: at most {})", number_text(entry.bound)) : std::string());
         }
         html += "</tbody></table>\n";
         if (report.not_valid.size() > listed)
@@ -233,10 +237,11 @@ std::string certificate_section(const RunReport& report, const ReportColors& col
         "the bounds (Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013).</p>\n",
         short_number_text(report.certificate.tolerance), count_text(report.certificate.max_subdivisions));
     if (report.moves_boundary)
-        html += fmt::format("<p>Of the boundary, {} nodes could slide and {} were free; it is at most {} away from the "
-                            "boundary that was read.</p>\n",
-                            count_text(report.sliding_nodes), count_text(report.free_nodes),
-                            number_text(report.largest_boundary_distance));
+        html += fmt::format(
+            "<p>Of the boundary, {} nodes could slide and {} were free; it is at most {} away from the "
+            "boundary that was read.</p>\n",
+            count_text(report.sliding_nodes), count_text(report.free_nodes),
+            number_text(report.largest_boundary_distance));
     return html;
 }
 
@@ -254,8 +259,8 @@ struct ValueText {
 };
 
 std::string method_section(const RunReport& report) {
-    std::string html =
-        fmt::format("<h2>Method</h2>\n<p><strong>{}.</strong> {}</p>\n", report.method_title, report.method_description);
+    std::string html = fmt::format("<h2>Method</h2>\n<p><strong>{}.</strong> {}</p>\n", report.method_title,
+                                   report.method_description);
     html += "<table><thead><tr><th>parameter</th><th>value</th><th>meaning</th></tr></thead><tbody>";
     for (const ReportParameter& parameter : report.parameters)
         html += fmt::format("<tr><td class=\"mono\">{}</td><td>{}</td><td>{}</td></tr>", escaped(parameter.name),
@@ -285,12 +290,13 @@ std::string input_section(const RunReport& report) {
     const auto& box = report.bounding_box;
     std::string extents;
     for (std::size_t i = 0; i < 3; ++i)
-        extents += fmt::format("{}{} … {}", i == 0 ? "" : ", ", short_number_text(box[i]), short_number_text(box[i + 3]));
+        extents +=
+            fmt::format("{}{} … {}", i == 0 ? "" : ", ", short_number_text(box[i]), short_number_text(box[i + 3]));
     html += property("Bounding box x, y, z", extents);
     html += property("Orientation", to_string(report.orientation));
     html += property("SHA-256 of its coordinates", "<span class=\"mono\">" + report.input_coordinates + "</span>");
-    html +=
-        property("SHA-256 of the result’s coordinates", "<span class=\"mono\">" + report.result_coordinates + "</span>");
+    html += property("SHA-256 of the result’s coordinates",
+                     "<span class=\"mono\">" + report.result_coordinates + "</span>");
     std::string versions;
     for (const auto& [name, version] : report.versions)
         versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", escaped(name), escaped(version));
@@ -317,8 +323,10 @@ std::string run_section(const RunReport& report) {
 
 std::string to_html(const RunReport& report, const ReportPictures& pictures, const ReportColors& colors) {
     std::string html = fmt::format(
-        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}: untangling report</title>\n"
+        "<!DOCTYPE html>\n<html xmlns=\"http://www.w3.org/1999/xhtml\" lang=\"en\">\n<head>\n<meta "
+        "charset=\"utf-8\"/>\n"
+        "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>{}: untangling "
+        "report</title>\n"
         "<style>{}</style>\n</head>\n<body>\n{}\n<main>\n",
         escaped(report.input.file), report_style, hatch_svg(colors));
     html += head_section(report);

@@ -118,8 +118,7 @@ std::string base64(std::string_view bytes) {
         std::uint32_t word = 0;
         for (std::size_t k = 0; k < 3; ++k)
             word = word << 8 | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            result += i + k <= bytes.size() ? letters[word >> (18 - 6 * k) & 63u] : '=';
+        for (std::size_t k = 0; k < 4; ++k) result += i + k <= bytes.size() ? letters[word >> (18 - 6 * k) & 63u] : '=';
     }
     return result;
 }

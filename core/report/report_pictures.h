@@ -22,7 +22,8 @@ struct ReportPictures {
     std::vector<std::string> png;  ///< one per wish, or none at all
     std::string note;              ///< why there are none; "" otherwise
 };
-/// Has them drawn one after the other. Where that is not possible (draw throws Unsupported) there are none, with a note.
+/// Has them drawn one after the other. Where that is not possible (draw throws Unsupported) there are none, with a
+/// note.
 ReportPictures draw_pictures(const RunReport& report, const std::function<std::string(const PictureWish&)>& draw,
                              const TaskContext& context = {});
 

@@ -100,11 +100,11 @@ struct RunReport {
     std::vector<convergence::Round> round_list;
     std::size_t pass_count = 0, patch_count = 0, round_count = 0;
 
-    QualityOptions certificate;               ///< tolerance and budget of the bounds
-    std::optional<double> proved_least;       ///< proved lower bound of every scaled Jacobian, if all are valid
-    std::vector<ReportUnproved> not_valid;    ///< in the order of the mesh
-    Index impossible = 0;                     ///< of them: proved that nothing can be done
-    std::vector<std::string> remarks;         ///< sentences about this run
+    QualityOptions certificate;             ///< tolerance and budget of the bounds
+    std::optional<double> proved_least;     ///< proved lower bound of every scaled Jacobian, if all are valid
+    std::vector<ReportUnproved> not_valid;  ///< in the order of the mesh
+    Index impossible = 0;                   ///< of them: proved that nothing can be done
+    std::vector<std::string> remarks;       ///< sentences about this run
 
     // What differs from run to run.
     std::string written;                                  ///< "2026-01-31 12:00:00 UTC"

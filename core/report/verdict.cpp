@@ -33,8 +33,8 @@ std::string what_happened(const RunReport& report) {
         text = fmt::format("All elements were valid before; of {} there {} {} now.", all, now == 1 ? "is" : "are",
                            describe_not_valid(after));
     else if (report.mended == 0)
-        text = fmt::format("None of the {} could be made valid; of {} there {} {} now.", describe_not_valid(before),
-                           all, now == 1 ? "is" : "are", describe_not_valid(after));
+        text = fmt::format("{} could not be made valid; of {} there {} {} now.", describe_not_valid(before), all,
+                           now == 1 ? "is" : "are", describe_not_valid(after));
     else
         text = fmt::format("{} of {} became valid; of {} there {} {} now.", count_text(report.mended),
                            describe_not_valid(before), all, now == 1 ? "is" : "are", describe_not_valid(after));

@@ -1,7 +1,7 @@
 #include "core/report/versions.h"
 
-#include <Eigen/Core>
 #include <fmt/format.h>
+#include <Eigen/Core>
 
 namespace curvewright {
 

@@ -21,8 +21,8 @@ QString tr(const char* text) {
 
 QImage draw_in_window(QObject* window, const std::function<QImage(const Frame&)>& draw,
                       std::shared_ptr<const Frame> frame, const std::stop_token& stop) {
-    const auto image =
-        call_in_window<QImage>(window, [draw, frame = std::move(frame)] { return draw(*frame); }, stop);
+    const auto image = call_in_window<QImage>(
+        window, [draw, frame = std::move(frame)] { return draw(*frame); }, stop);
     if (image.isNull())
         throw Unsupported(tr("The picture could not be drawn: there is not enough graphics memory.").toStdString());
     return image;

@@ -81,8 +81,7 @@ QString free_report_folder(const QString& chosen, const QString& mesh_name) {
 JobRunner::Work report_work(QObject* window, const MeshDocument& document, int step, ReportRequest request) {
     const MeshState start = document.state_at(step), end = document.state_at(step + 1);
     const auto opened = document.state_at(0).mesh;
-    const UntangleOptions options =
-        made_cancellable(std::get<UntangleAction>(document.step_action(step)).options);
+    const UntangleOptions options = made_cancellable(std::get<UntangleAction>(document.step_action(step)).options);
     const std::string path = std::get<OpenAction>(document.session().front()).mesh;
     std::vector<std::string> steps;
     for (int i = 0; i < step; ++i) steps.push_back(line_of(document.step_action(i)));
@@ -101,11 +100,20 @@ JobRunner::Work report_work(QObject* window, const MeshDocument& document, int s
             const MeshState again = make_state(start.mesh->with_coordinates(run.coordinates), context, &start);
             states.after = again.mesh;
             states.quality_after = again.quality;
-            remark = tr("The untangling was made again for it and came out a little differently from the mesh in the "
-                        "history.");
+            remark =
+                tr("The untangling was made again for it and came out a little differently from the mesh in the "
+                   "history.");
         }
-        RunReport report = collect_report({input, *states.before, *states.quality_before, *states.after,
-                                           *states.quality_after, options, {}, run, log, run.timings},
+        RunReport report = collect_report({input,
+                                           *states.before,
+                                           *states.quality_before,
+                                           *states.after,
+                                           *states.quality_after,
+                                           options,
+                                           {},
+                                           run,
+                                           log,
+                                           run.timings},
                                           context);
         if (!remark.isEmpty())
             report.remarks.push_back(

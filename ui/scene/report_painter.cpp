@@ -145,9 +145,8 @@ std::vector<Index> ReportPainter::neighbours(Index element, const Eigen::RowVect
     } else {
         for (Index other = 0; other < topology.element_count(); ++other) {
             const Eigen::MatrixX3d x = mesh.element_coordinates(other);
-            const bool is_near =
-                ((x.colwise().minCoeff() - center).array() <= reach * radius).all() &&
-                ((x.colwise().maxCoeff() - center).array() >= -reach * radius).all();
+            const bool is_near = ((x.colwise().minCoeff() - center).array() <= reach * radius).all() &&
+                                 ((x.colwise().maxCoeff() - center).array() >= -reach * radius).all();
             if (is_near) result.push_back(other);
         }
     }

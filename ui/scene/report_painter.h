@@ -38,8 +38,8 @@ class ReportPainter {
 
     State before_, after_;
     MeshScene scene_;
-    std::optional<NodeElements> node_elements_;      ///< 3D
-    std::unique_ptr<Surroundings> surroundings_;     ///< of the element that was painted last
+    std::optional<NodeElements> node_elements_;   ///< 3D
+    std::unique_ptr<Surroundings> surroundings_;  ///< of the element that was painted last
 };
 
 }  // namespace curvewright
