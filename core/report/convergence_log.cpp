@@ -19,8 +19,6 @@ struct ConvergenceLog::Handle {
         log.patch_.elements = static_cast<Index>(e.elements.size());
         log.patch_.nodes = static_cast<Index>(e.nodes.size());
     }
-    void operator()(const event::SimplexStep&) const {}
-    void operator()(const event::BfgsStep&) const {}
     void operator()(const event::EnergyStep& e) const {
         log.begin_round(e.round);
         log.round_->iterations = e.iteration;
@@ -47,7 +45,6 @@ struct ConvergenceLog::Handle {
         log.pass_.objective_after += e.objective_after;
         log.patches_.add(patch);
     }
-    void operator()(const event::FaceNodesMoved&) const {}
     void operator()(const event::PassEnded& e) const {
         log.pass_.relative_change = e.relative_change;
         log.pass_.min_scaled_jacobian = e.min_scaled_jacobian;
@@ -56,6 +53,7 @@ struct ConvergenceLog::Handle {
         log.passes_.add(log.pass_);
     }
     void operator()(const event::Finished&) const { log.end_round(); }
+    void operator()(const auto&) const {}  // the others are too many, or say nothing of the course
 };
 
 void ConvergenceLog::on_event(const UntangleEvent& event) {
