@@ -106,7 +106,8 @@ std::string histogram_svg(const ReportHistogram& histogram, Index highest, const
 }
 
 std::string chart_svg(const Chart& chart) {
-    constexpr double width = 440, height = 220, left = 56, right = 10, top = 24, bottom = 34;
+    constexpr double height = 220, left = 56, right = 10, top = 24, bottom = 34;
+    const double width = chart.width;
     std::vector<ChartLine> lines = chart.lines;
     double x_low = std::numeric_limits<double>::infinity(), x_high = -x_low, low = x_low, high = -x_low;
     for (ChartLine& line : lines) {

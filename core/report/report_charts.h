@@ -31,6 +31,7 @@ struct Chart {
     bool is_logarithmic = false;  ///< y; what is not positive is left out
     bool is_count = false;        ///< y: whole numbers, from 0 on
     bool has_zero = false;        ///< 0 is marked, as the limit between tangled and valid
+    double width = 440.0;         ///< of the picture; its height is half of 440
 };
 /// "" if there is nothing to draw.
 std::string chart_svg(const Chart& chart);

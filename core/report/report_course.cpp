@@ -18,10 +18,12 @@ using convergence::Round;
 
 constexpr std::size_t listed_passes = 24, listed_patches = 12, drawn_patches = 80, drawn_passes = 4;
 
-std::string stop_text(StopReason reason) {
-    switch (reason) {
+std::string stop_text(const RunReport& report) {
+    switch (report.reason) {
         case StopReason::converged:
-            return "It ended by itself: what it was after is reached, or nothing more was to be gained.";
+            return report.passes
+                       ? "It ended because a pass hardly moved the nodes any more."
+                       : "It ended by itself: what it was after is reached, or nothing more was to be gained.";
         case StopReason::untangled:
             return "It ended because every element was proved valid.";
         case StopReason::pass_limit:
@@ -35,11 +37,12 @@ std::string stop_text(StopReason reason) {
 }
 
 std::string pass_table(const RunReport& report) {
-    std::string html =
-        "<table><thead><tr><th class=\"number\">after pass</th><th class=\"number\">patches</th>"
+    std::string html = fmt::format(
+        "<table><thead><tr><th class=\"number\">after pass</th><th class=\"number\">{}</th>"
         "<th class=\"number\">minimisations</th><th class=\"number\">iterations</th><th class=\"number\">objective, "
         "sum</th><th class=\"number\">not valid</th><th class=\"number\">least scaled Jacobian</th>"
-        "<th class=\"number\">relative change</th></tr></thead><tbody>";
+        "<th class=\"number\">relative change</th></tr></thead><tbody>",
+        report.rounds ? "patches" : "edges or nodes");
     const QualitySummary& start = report.before.scaled_jacobian;
     html += fmt::format(
         "<tr><td class=\"number\">start</td><td></td><td></td><td></td><td></td><td class=\"number\">{}</td>"
@@ -62,11 +65,15 @@ std::string pass_table(const RunReport& report) {
     return html + "</tbody></table>\n";
 }
 
-std::string figures(const std::vector<Chart>& charts, const char* layout) {
+/// Two or three beside each other.
+std::string figures(std::vector<Chart> charts) {
     std::string html;
-    for (const Chart& chart : charts)
+    for (Chart& chart : charts) {
+        chart.width = charts.size() == 3 ? 300.0 : 440.0;
         if (const std::string svg = chart_svg(chart); !svg.empty()) html += "<figure>" + svg + "</figure>";
-    return html.empty() ? html : fmt::format("<div class=\"{}\">{}</div>\n", layout, html);
+    }
+    return html.empty() ? html
+                        : fmt::format("<div class=\"{}\">{}</div>\n", charts.size() == 3 ? "triple" : "pair", html);
 }
 
 std::string pass_charts(const RunReport& report) {
@@ -84,7 +91,7 @@ std::string pass_charts(const RunReport& report) {
                               {"Elements not valid", "after pass", {not_valid}, false, true, false}};
     // Passes of the guaranteed method have different patches, so the sums cannot be compared.
     if (report.passes) charts.push_back({"Objective, sum", "after pass", {objective}, false, false, false});
-    return figures(charts, charts.size() == 3 ? "triple" : "pair");
+    return figures(std::move(charts));
 }
 
 /// The patches of a pass, the worst at its beginning first.
@@ -145,7 +152,7 @@ std::string round_charts(const RunReport& report, int pass, const std::vector<Pa
     if (has_not_valid)
         charts.push_back({"Elements not valid", "minimisation", std::move(of_charts[1]), false, true, false});
     charts.push_back({"Objective at its end", "minimisation", std::move(of_charts[2]), is_positive, false, false});
-    return figures(charts, charts.size() == 3 ? "triple" : "pair");
+    return figures(std::move(charts));
 }
 
 std::string guaranteed_details(const RunReport& report) {
@@ -153,9 +160,10 @@ std::string guaranteed_details(const RunReport& report) {
         "<p class=\"note\">A patch is a set of elements whose free nodes are moved together. Below, each line is a "
         "patch, the blue one that which began worst. A certificate is asked for when all samples are positive, so the "
         "curves of the scaled Jacobian may jump from the start to the last minimisation. While elements are made "
-        "valid, the objective is the foldover "
-        "energy; while improving, first the energy and then a soft minimum that is sharpened with every minimisation, "
-        "so that its value jumps there.</p>\n";
+        "valid, "
+        "the objective is the foldover energy, whose penalty is sharpened from one minimisation to the next, so that "
+        "it "
+        "may rise; while improving, it is first the energy and then a soft minimum that is sharpened likewise.</p>\n";
     std::size_t drawn = 0;
     for (const Pass& pass : report.pass_list) {
         const std::vector<Patch> patches = patches_of(report, pass.pass);
@@ -173,7 +181,7 @@ std::string guaranteed_details(const RunReport& report) {
 }  // namespace
 
 std::string course_section(const RunReport& report) {
-    std::string html = fmt::format("<h2>How it went</h2>\n<p>{}", stop_text(report.reason));
+    std::string html = fmt::format("<h2>How it went</h2>\n<p>{}", stop_text(report));
     if (report.passes)
         html += fmt::format(" {} {} {} made.", count_text(*report.passes), *report.passes == 1 ? "pass" : "passes",
                             *report.passes == 1 ? "was" : "were");

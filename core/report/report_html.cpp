@@ -202,7 +202,8 @@ std::string certificate_section(const RunReport& report, const ReportColors& col
         html += fmt::format("<p>All {} elements are proved valid.", count_text(report.elements()));
         if (report.proved_least)
             html += fmt::format(
-                " It is also proved that no element’s least determinant is below {} of its greatest; the least scaled "
+                " It is also proved that no element’s least determinant is below {} times its greatest; the least "
+                "scaled "
                 "Jacobian in the tables, {}, is attained.",
                 number_text(*report.proved_least), number_text(report.after.scaled_jacobian.min));
         html += "</p>\n";
