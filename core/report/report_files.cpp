@@ -31,7 +31,10 @@ void check_report_folder(const fs::path& given, const std::vector<fs::path>& oth
     if (name.empty()) throw InvalidInput("The folder of the report has no name; a folder was expected.");
     std::error_code error;
     const bool is_there = fs::is_directory(folder, error);
-    if (!is_there && fs::symlink_status(folder, error).type() != fs::file_type::not_found)
+    const fs::file_type type = fs::symlink_status(folder, error).type();
+    if (type == fs::file_type::none)
+        throw InvalidInput(name, 0, fmt::format("the report cannot be written there ({}).", error.message()));
+    if (!is_there && type != fs::file_type::not_found)
         throw InvalidInput(name, 0, "the report needs a folder, and this is something else.");
     const fs::path parent = is_there ? folder : folder.has_parent_path() ? folder.parent_path() : fs::path(".");
     if (!fs::is_directory(parent, error))
