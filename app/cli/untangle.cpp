@@ -8,13 +8,13 @@
 
 #include "app/cli/command.h"
 #include "app/cli/output.h"
+#include "app/cli/untangle_outcome.h"
+#include "app/cli/untangle_report.h"
 #include "core/base/error.h"
 #include "core/io/atomic_file.h"
 #include "core/quality/shape_quality.h"
-#include "core/untangle/guaranteed.h"
-#include "core/untangle/signed_angles.h"
+#include "core/report/report_files.h"
 #include "core/untangle/trace.h"
-#include "core/untangle/unsigned_angles.h"
 #include "core/warp/straight_start.h"
 
 namespace curvewright::cli {
@@ -25,7 +25,8 @@ constexpr const char* signed_method = "signed-angle";
 constexpr const char* unsigned_method = "unsigned-angle";
 
 struct Options {
-    std::filesystem::path mesh, trace;
+    std::filesystem::path mesh, trace, report;
+    bool has_report = false;  ///< an empty name is one, though a bad one
     OutputOptions output;
     std::string method = guaranteed_method;
     SignedAngleOptions signed_angles;
@@ -34,14 +35,25 @@ struct Options {
     std::optional<Weighting> warp_first;
     GuaranteedOptions guaranteed;
     std::vector<std::string> boundary;  ///< rules as given
+
+    UntangleOptions of_method() const;
 };
 
-/// What a method has to say about its run, for the report.
-struct Outcome {
-    Coordinates coordinates;
-    Json details = Json::object();
-    std::string text;
-};
+UntangleOptions Options::of_method() const {
+    if (method == guaranteed_method) {
+        GuaranteedOptions options = guaranteed;
+        for (const std::string& rule : boundary) options.boundary.add(rule);
+        return options;
+    }
+    if (method == signed_method) {
+        SignedAngleOptions options = signed_angles;
+        if (max_passes > 0) options.max_passes = max_passes;
+        return options;
+    }
+    UnsignedAngleOptions options = is_literal ? UnsignedAngleOptions::literal() : UnsignedAngleOptions();
+    if (max_passes > 0) options.max_passes = max_passes;
+    return options;
+}
 
 /// A trace file that becomes visible when it is complete.
 class TraceFile {
@@ -68,93 +80,6 @@ Json shape_json(const ShapeSummary& shape) {
     return {{"min", shape.min}, {"mean", shape.mean}};
 }
 
-std::string passes_text(const UntangleResult& result, double seconds) {
-    return fmt::format("{} {} ({}), {:.3f} s", result.passes, result.passes == 1 ? "pass" : "passes",
-                       to_string(result.reason), seconds);
-}
-
-Outcome run_signed_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
-                          const TaskContext& context, Json& timings) {
-    SignedAngleOptions method = options.signed_angles;
-    if (options.max_passes > 0) method.max_passes = options.max_passes;
-    const Stopwatch watch;
-    CurvedMesh start = input;
-    if (options.warp_first) {
-        WarpOptions warp;
-        warp.weighting = *options.warp_first;
-        start = input.with_coordinates(warp_from_straight(input, warp, context).coordinates);
-        timings["warp"] = watch.seconds();
-    }
-    const Stopwatch untangle_watch;
-    UntangleResult result = untangle_signed_angles(start, method, observer, context);
-    timings["untangle"] = untangle_watch.seconds();
-    const bool is_automatic = method.beta_choice == BetaChoice::automatic;
-    Outcome outcome;
-    outcome.details = {{"method", signed_method},
-                       {"beta", is_automatic ? Json("auto") : Json(method.beta)},
-                       {"passes", result.passes},
-                       {"stopped", to_string(result.reason)}};
-    if (options.warp_first) outcome.details["warped_first"] = to_string(*options.warp_first);
-    outcome.text = passes_text(result, watch.seconds());
-    outcome.coordinates = std::move(result.coordinates);
-    return outcome;
-}
-
-Outcome run_unsigned_angles(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
-                            const TaskContext& context, Json& timings) {
-    UnsignedAngleOptions method = options.is_literal ? UnsignedAngleOptions::literal() : UnsignedAngleOptions();
-    if (options.max_passes > 0) method.max_passes = options.max_passes;
-    const Stopwatch watch;
-    UntangleResult result = untangle_unsigned_angles(input, method, observer, context);
-    timings["untangle"] = watch.seconds();
-    Outcome outcome;
-    outcome.details = {{"method", unsigned_method},
-                       {"literal", options.is_literal},
-                       {"passes", result.passes},
-                       {"stopped", to_string(result.reason)}};
-    outcome.text = passes_text(result, watch.seconds());
-    outcome.coordinates = std::move(result.coordinates);
-    return outcome;
-}
-
-Outcome run_guaranteed(const CurvedMesh& input, const Options& options, UntangleObserver* observer,
-                       const TaskContext& context, Json& timings) {
-    GuaranteedOptions method = options.guaranteed;
-    for (const std::string& rule : options.boundary) method.boundary.add(rule);
-    GuaranteedResult result = untangle_guaranteed(input, method, observer, context);
-    timings["untangle"] = result.valid_seconds;
-    timings["improve"] = result.improve_seconds;
-    Outcome outcome;
-    Json unmended = Json::array();
-    for (const UnmendedElement& element : result.unmended)
-        unmended.push_back({{"element", input.topology().element_tag(element.element).value},
-                            {"reason", element.reason},
-                            {"proved", element.is_proved},
-                            {"bound", element.bound}});
-    outcome.text = fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", result.valid_seconds,
-                               result.improve_seconds);
-    constexpr std::size_t listed = 5;
-    for (std::size_t i = 0; i < std::min(listed, result.unmended.size()); ++i)
-        outcome.text +=
-            fmt::format("\nelement {} cannot be mended with the boundary as it is: {}",
-                        input.topology().element_tag(result.unmended[i].element).value, result.unmended[i].reason);
-    if (result.unmended.size() > listed)
-        outcome.text += fmt::format("\nand {} more elements", result.unmended.size() - listed);
-    outcome.details = {{"method", "guaranteed"},
-                       {"rounds", result.rounds},
-                       {"stopped", to_string(result.reason)},
-                       {"unmended", std::move(unmended)}};
-    if (!method.boundary.is_all_fixed()) {
-        outcome.details["boundary"] = {{"sliding_nodes", result.sliding_nodes},
-                                       {"free_nodes", result.free_nodes},
-                                       {"largest_distance", result.largest_boundary_distance}};
-        outcome.text += fmt::format("\nboundary: {} sliding nodes, {} free ones; at most {:.3g} away from the input's",
-                                    result.sliding_nodes, result.free_nodes, result.largest_boundary_distance);
-    }
-    outcome.coordinates = std::move(result.coordinates);
-    return outcome;
-}
-
 /// Refuses options that the method chosen does not read. of: the options of each method but the common ones.
 void check_options(const CLI::App& command, const std::string& method,
                    const std::map<std::string, std::vector<std::string>>& methods_of) {
@@ -164,8 +89,16 @@ void check_options(const CLI::App& command, const std::string& method,
                 option, fmt::format("is for --method {}, not for {}", fmt::join(methods, " or "), method));
 }
 
+/// Files beside the report's that must not be in its way.
+std::vector<std::filesystem::path> report_neighbours(const Options& options) {
+    std::vector<std::filesystem::path> files{options.mesh, options.output.file};
+    if (!options.trace.empty()) files.push_back(options.trace);
+    return files;
+}
+
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
     check_output(options.output);
+    if (options.has_report) check_report_folder(options.report, report_neighbours(options));
     const Stopwatch watch;
     Json timings = Json::object();
     const ReadResult read = read_input(options.mesh, invocation, context, timings);
@@ -173,35 +106,54 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const QualityReport before = certify(input, context, timings);
     warn_about_orientation(before, invocation);
     std::optional<TraceFile> trace;
-    if (!options.trace.empty()) trace.emplace(options.trace);
-    UntangleObserver* observer = trace ? trace->observer() : nullptr;
-    const auto run_method = options.method == guaranteed_method ? run_guaranteed
-                            : options.method == signed_method   ? run_signed_angles
-                                                                : run_unsigned_angles;
-    const Outcome result = run_method(input, options, observer, context, timings);
+    ConvergenceLog log;
+    ObserverFan observers;
+    if (!options.trace.empty()) observers.add(trace.emplace(options.trace).observer());
+    if (options.has_report) observers.add(&log);
+
+    const UntangleOptions of_method = options.of_method();
+    const std::string warped_first = options.warp_first ? to_string(*options.warp_first) : "";
+    CurvedMesh start = input;
+    if (options.warp_first) {
+        const Stopwatch warping;
+        WarpOptions warp;
+        warp.weighting = *options.warp_first;
+        start = input.with_coordinates(warp_from_straight(input, warp, context).coordinates);
+        timings["warp"] = warping.seconds();
+    }
+    const UntangleRun result = run_untangling(start, of_method, observers.observer(), context);
+    for (const auto& [name, seconds] : result.timings) timings[name] = seconds;
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
     const QualityReport after = certify_result(mesh, before, context, timings);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), context);
+    std::unique_ptr<ReportFiles> report;
+    if (options.has_report) {
+        const UntangleFacts facts{options.mesh, input, before, mesh, after, of_method, warped_first, result, log};
+        report = write_report(options.report, facts, invocation, context, timings);
+    }
     if (trace) trace->commit();
     write_output(options.output, mesh, read.fields, &after, &input.coordinates(), invocation, timings);
+    if (report) report->commit();
     finish_timings(timings, watch);
 
     if (invocation.common.json) {
         Json json = {{"mesh", mesh_json(options.output.file, mesh)}};
-        json.update(result.details);
+        json.update(run_json(input.topology(), of_method, warped_first, result));
         json.update(
             {{"orientation", to_string(before.orientation)},
              {"scaled_jacobian", summary_json(after.summary)},
              {"shape", shape_json(shape)},
              {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
-             {"worst", worst_json(mesh, after)},
-             {"timings", timings}});
+             {"worst", worst_json(mesh, after)}});
+        if (report) json["report"] = options.report.string();
+        json["timings"] = timings;
         print_json(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
-        fmt::print("{}\n", result.text);
+        fmt::print("{}\n", run_text(input.topology(), of_method, result, timings));
+        if (report) fmt::print("report  {}\n", (options.report / report_html_name).string());
     }
     return validity_status(after.summary);
 }
@@ -260,6 +212,10 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     command->add_option("--trace", options->trace, "Write every step to this file, one JSON object per line")
         ->type_name("FILE.jsonl");
     command
+        ->add_option("--report", options->report,
+                     "Write report.html and report.json into this folder: the outcome with pictures, and how it went")
+        ->type_name("DIR");
+    command
         ->add_option("--target", options->guaranteed.target,
                      "Elements below this scaled Jacobian are improved once all are valid (guaranteed)")
         ->type_name("Q")
@@ -282,6 +238,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     command->add_flag("!--valid-only", options->guaranteed.improves,
                       "Stop as soon as all elements are valid (guaranteed)");
     command->parse_complete_callback([command, options] {
+        options->has_report = command->count("--report") > 0;
         // A beta alone says which method is meant.
         if (command->count("--method") == 0 && command->count("--beta") > 0) options->method = signed_method;
         check_options(*command, options->method,

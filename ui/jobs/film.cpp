@@ -1,9 +1,5 @@
 #include "ui/jobs/film.h"
 
-#include <condition_variable>
-#include <exception>
-#include <mutex>
-
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
@@ -12,6 +8,7 @@
 #include "core/base/error.h"
 #include "core/io/deformation_file.h"
 #include "ui/document/number_format.h"
+#include "ui/jobs/in_window.h"
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/picture_file.h"
 
@@ -22,48 +19,13 @@ QString tr(const char* text) {
     return QCoreApplication::translate("curvewright::MeshJobs", text);
 }
 
-/// A picture that the worker waits for. Shared by both threads; whoever gives up first leaves it to the other.
-struct Drawing {
-    std::mutex mutex;
-    std::condition_variable_any is_over;
-    bool is_done = false, is_given_up = false;
-    QImage image;
-    std::exception_ptr problem;
-};
-
 QImage draw_in_window(QObject* window, const std::function<QImage(const Frame&)>& draw,
                       std::shared_ptr<const Frame> frame, const std::stop_token& stop) {
-    auto drawing = std::make_shared<Drawing>();
-    QMetaObject::invokeMethod(
-        window,
-        [drawing, draw, frame = std::move(frame)] {
-            {
-                const std::lock_guard lock(drawing->mutex);
-                if (drawing->is_given_up) return;
-            }
-            QImage image;
-            std::exception_ptr problem;
-            try {
-                image = draw(*frame);
-            } catch (...) {
-                problem = std::current_exception();
-            }
-            const std::lock_guard lock(drawing->mutex);
-            drawing->image = std::move(image);
-            drawing->problem = problem;
-            drawing->is_done = true;
-            drawing->is_over.notify_all();
-        },
-        Qt::QueuedConnection);
-    std::unique_lock lock(drawing->mutex);
-    if (!drawing->is_over.wait(lock, stop, [&] { return drawing->is_done; })) {
-        drawing->is_given_up = true;
-        throw Cancelled();
-    }
-    if (drawing->problem) std::rethrow_exception(drawing->problem);
-    if (drawing->image.isNull())
+    const auto image = call_in_window<QImage>(
+        window, [draw, frame = std::move(frame)] { return draw(*frame); }, stop);
+    if (image.isNull())
         throw Unsupported(tr("The picture could not be drawn: there is not enough graphics memory.").toStdString());
-    return drawing->image;
+    return image;
 }
 
 /// What a leg of a film is made of.

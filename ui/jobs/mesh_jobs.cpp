@@ -182,6 +182,12 @@ bool MeshJobs::write_film(FilmRequest request) {
     return runner_.start(tr("Writing the animation"), film_work(this, std::move(request)));
 }
 
+bool MeshJobs::write_report(ReportRequest request) {
+    const std::optional<int> step = last_untangling(document_);
+    if (!step) return false;
+    return runner_.start(tr("Writing the report"), report_work(this, document_, *step, std::move(request)));
+}
+
 QString MeshJobs::why_not_deform() const {
     if (!document_.has_mesh()) return tr("Open a mesh first.");
     if (!document_.deformation()) return tr("Load a deformation first.");

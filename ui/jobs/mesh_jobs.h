@@ -11,6 +11,7 @@
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/film.h"
 #include "ui/jobs/job_runner.h"
+#include "ui/jobs/reporting.h"
 #include "ui/jobs/restoring.h"
 #include "ui/jobs/untangling.h"
 
@@ -63,6 +64,9 @@ class MeshJobs : public QObject {
 
     /// Writes the pictures of a film; the document stays.
     bool write_film(FilmRequest request);
+    /// Writes the report of the last untangling in the history, which is made again for that; the document stays.
+    /// Does nothing if there is none.
+    bool write_report(ReportRequest request);
 
     /// Why the operation cannot run on the present state, as a sentence; empty if it can.
     QString why_not_deform() const;

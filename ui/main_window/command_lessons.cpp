@@ -21,6 +21,7 @@ const Lesson lessons[] = {
     {CommandId::save, TEXT("The file that was opened is not overwritten without asking.")},
     {CommandId::export_mesh, TEXT("To look at the mesh in ParaView, or to hand it to a solver.")},
     {CommandId::save_picture, TEXT("For a report: as large as the view, or twice as large.")},
+    {CommandId::report, TEXT("To show somebody, or for your records; curvewright-cli untangle --report writes the same.")},
     {CommandId::save_session, TEXT("To do the same again, or to show somebody how you got there.")},
     {CommandId::undo, TEXT("As often as you like; a click in the history jumps.")},
     {CommandId::redo, TEXT("As long as nothing else has been done.")},

@@ -22,6 +22,7 @@ const Command command_list[] = {
     {CommandId::save_picture, CommandMenu::file, "save_picture", TEXT("Save &picture…"), TEXT("Save or copy what the view shows as a picture of any size"), "picture", "F12", false, false, 1},
     {CommandId::export_film, CommandMenu::file, "export_film", TEXT("Export ani&mation…"), TEXT("Write the way to the present mesh as pictures for a video or as an animated WebP"), "", "Shift+F12"},
     {CommandId::export_quality, CommandMenu::file, "export_quality", TEXT("Export &histogram…"), TEXT("Write before and after as a table (CSV) or as a drawing (SVG, PNG)"), "", ""},
+    {CommandId::report, CommandMenu::file, "report", TEXT("Repor&t…"), TEXT("Write a page about the last untangling: pictures, numbers, what was proved, how it went"), "", ""},
     {CommandId::save_session, CommandMenu::file, "save_session", TEXT("Save sessi&on…"), TEXT("Save everything that was done, for curvewright-cli replay"), "", ""},
     {CommandId::close_mesh, CommandMenu::file, "close_mesh", TEXT("&Close mesh"), TEXT("Close the mesh and go back to the start page"), "", "Ctrl+W", false, true},
     {CommandId::quit, CommandMenu::file, "quit", TEXT("&Quit"), TEXT("Leave the program"), "quit", "Ctrl+Q"},

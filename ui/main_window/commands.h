@@ -23,6 +23,7 @@ enum class CommandId {
     save_picture,
     export_film,
     export_quality,
+    report,
     save_session,
     close_mesh,
     quit,

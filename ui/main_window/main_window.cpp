@@ -81,6 +81,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_colors();
     connect_session();
     connect_views();
+    connect_report();
     connect_keyboard();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
@@ -188,7 +189,7 @@ void MainWindow::connect_panels() {
     connect(start_page_, &StartPage::file_chosen, this, [this](const QString& path) { open_file(path); });
     connect(start_page_, &StartPage::sample_chosen, this, &MainWindow::open_sample);
     connect(deform_panel_, &DeformPanel::load_requested, this, &MainWindow::ask_load_deformation);
-    connect(banner_, &Banner::action_triggered, this, [this] { jobs_.flip(); });
+    connect(banner_, &Banner::action_triggered, this, [this] { banner_action_(); });
     connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
     connect(worst_table_, &WorstTable::element_chosen, this,
             [this](Index element) { select_elements({element}, true); });
@@ -234,6 +235,7 @@ void MainWindow::show_state() {
     show_before();
     verdict_->clear();
     banner_->hide();
+    banner_action_ = [this] { jobs_.flip(); };
     if (state.mesh && !state.quality) {
         verdict_->setText(tr("quality unknown"));
         set_tone(verdict_, "warning");
@@ -283,6 +285,7 @@ void MainWindow::update_commands() {
         actions_[id]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::bookmark_add]->setEnabled(has_mesh);
     actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh && document_.history()->index() > 0);
+    actions_[CommandId::report]->setEnabled(is_idle && last_untangling(document_));
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());
     actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());

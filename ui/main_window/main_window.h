@@ -158,6 +158,10 @@ class MainWindow : public QMainWindow {
     void ask_export_film();
     void ask_export_quality();
 
+    // main_window_report.cpp
+    void connect_report();
+    void ask_report();
+
     // main_window_files.cpp
     void ask_open();
     void ask_load_deformation();
@@ -216,6 +220,7 @@ class MainWindow : public QMainWindow {
     /// What the colours show of the elements, if it is computed; null = not yet.
     std::shared_ptr<const FieldArray> numbers_now_, numbers_before_;
 
+    std::function<void()> banner_action_;
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name
     std::optional<MeshFormat> pending_format_;  ///< of the file that is being saved

@@ -11,7 +11,7 @@ class QPushButton;
 
 namespace curvewright {
 
-/// A line over the view that warns of something and offers to put it right.
+/// A line over the view that warns of something and offers to put it right, or tells of something that was done.
 class Banner : public QWidget {
     Q_OBJECT
 
@@ -20,12 +20,16 @@ class Banner : public QWidget {
 
     /// Shows a text; action may be "" (no button).
     void show_warning(const QString& text, const QString& action);
+    void show_note(const QString& text, const QString& action);
     QString text() const;
 
   signals:
     void action_triggered();
 
   private:
+    void show_text(const QString& text, const QString& action, const char* tone);
+
+    QLabel *warning_icon_ = nullptr, *note_icon_ = nullptr;
     QLabel* text_ = nullptr;
     QPushButton* action_ = nullptr;
 };

@@ -105,6 +105,14 @@ class ScaledOptions {
     SceneOptions options_;
 };
 
+vtkSmartPointer<vtkImageData> image_of(const PicturePixels& pixels, int width, int height) {
+    const auto image = vtkSmartPointer<vtkImageData>::New();
+    image->SetDimensions(width, height, 1);
+    image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);
+    std::copy(pixels.bytes.begin(), pixels.bytes.end(), static_cast<unsigned char*>(image->GetScalarPointer()));
+    return image;
+}
+
 }  // namespace
 
 PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGround ground) {
@@ -137,11 +145,8 @@ PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGrou
 }
 
 void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file, PictureGround ground) {
-    const PicturePixels pixels = render_pixels(scene, width, height, ground);
-    vtkNew<vtkImageData> image;
-    image->SetDimensions(width, height, 1);
-    image->AllocateScalars(VTK_UNSIGNED_CHAR, pixels.channels);
-    std::copy(pixels.bytes.begin(), pixels.bytes.end(), static_cast<unsigned char*>(image->GetScalarPointer()));
+    const vtkSmartPointer<vtkImageData> image =
+        image_of(render_pixels(scene, width, height, ground), width, height);
     AtomicFile target(file);
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName(target.path().c_str());
@@ -153,6 +158,16 @@ void render_png(MeshScene& scene, int width, int height, const std::filesystem::
     if (writer->GetErrorCode() != 0)
         throw InvalidInput(file.string(), 0, "The picture cannot be written; the folder must exist and be writable.");
     target.commit();
+}
+
+std::string draw_png(MeshScene& scene, int width, int height, PictureGround ground) {
+    vtkNew<vtkPNGWriter> writer;
+    writer->SetInputData(image_of(render_pixels(scene, width, height, ground), width, height));
+    writer->WriteToMemoryOn();
+    writer->Write();
+    vtkUnsignedCharArray* bytes = writer->GetResult();
+    const unsigned char* begin = bytes->GetPointer(0);
+    return {begin, begin + bytes->GetNumberOfTuples()};
 }
 
 }  // namespace curvewright

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "ui/scene/mesh_scene.h"
 #include "ui/scene/picture_pixels.h"
@@ -22,5 +23,8 @@ PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGrou
 /// The same as a PNG file, written atomically. Throws InvalidInput if the file cannot be written.
 void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file,
                 PictureGround ground = PictureGround::background);
+
+/// The same picture as the bytes of a PNG file.
+std::string draw_png(MeshScene& scene, int width, int height, PictureGround ground = PictureGround::background);
 
 }  // namespace curvewright
