@@ -145,8 +145,7 @@ PicturePixels render_pixels(MeshScene& scene, int width, int height, PictureGrou
 }
 
 void render_png(MeshScene& scene, int width, int height, const std::filesystem::path& file, PictureGround ground) {
-    const vtkSmartPointer<vtkImageData> image =
-        image_of(render_pixels(scene, width, height, ground), width, height);
+    const vtkSmartPointer<vtkImageData> image = image_of(render_pixels(scene, width, height, ground), width, height);
     AtomicFile target(file);
     vtkNew<vtkPNGWriter> writer;
     writer->SetFileName(target.path().c_str());
