@@ -170,7 +170,7 @@ Step again(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opene
                        return warp_step(mesh, load(its.deformation), its.options, its.increments, context);
                    },
                    [&](const UntangleAction& its) {
-                       Step step = untangle(mesh, its.options, context);
+                       Step step = untangle(mesh, its.options, nullptr, context);
                        context.check();
                        return step;
                    },

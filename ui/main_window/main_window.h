@@ -16,6 +16,7 @@
 #include "ui/jobs/element_numbers.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
+#include "ui/jobs/step_player.h"
 #include "ui/main_window/commands.h"
 #include "ui/main_window/dialogs.h"
 #include "ui/panels/theme.h"
@@ -42,6 +43,7 @@ class PointerTag;
 class QualityPanel;
 class SelectionPanel;
 class StartPage;
+class TimelinePanel;
 class Tool;
 class UntanglePanel;
 class WarpPanel;
@@ -59,6 +61,7 @@ class MainWindow : public QMainWindow {
     MeshJobs& jobs() { return jobs_; }
     EditState& edit() { return edit_; }
     LiveDrag& drag() { return drag_; }
+    StepPlayer& player() { return player_; }
     MeshView& view() { return *view_; }
     QAction* action(CommandId id) const { return actions_[id]; }
 
@@ -148,6 +151,17 @@ class MainWindow : public QMainWindow {
     void open_session(const QString& path);
     void ask_open_session();
 
+    // main_window_timeline.cpp
+    void connect_timeline();
+    int step_to_record() const;
+    void record_again();
+    void ask_open_trace();
+    void ask_save_trace();
+    void open_timeline(const RecordedRun& run);
+    void close_timeline();
+    /// The elements of the patch that the timeline is in stand out.
+    void show_patch();
+
     // main_window_views.cpp
     void connect_views();
     void fill_bookmarks_menu();
@@ -176,6 +190,7 @@ class MainWindow : public QMainWindow {
     MeshJobs jobs_;
     EditState edit_;
     LiveDrag drag_;
+    StepPlayer player_;
     ElementNumbers element_numbers_;
     RecentFiles recent_;
     SampleCatalog samples_;
@@ -205,7 +220,9 @@ class MainWindow : public QMainWindow {
     UntanglePanel* untangle_panel_ = nullptr;
     WorstTable* worst_table_ = nullptr;
     QualityPanel* quality_panel_ = nullptr;
-    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
+    TimelinePanel* timeline_panel_ = nullptr;
+    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr,
+                *timeline_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
     QList<QAction*> bookmark_actions_;

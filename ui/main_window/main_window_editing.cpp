@@ -120,6 +120,8 @@ void MainWindow::connect_editing() {
 
 Tool* MainWindow::current_tool() const {
     if (jobs_.runner().is_running() || !document_.has_mesh()) return nullptr;
+    // What a recording shows is looked at, and not the document's to edit.
+    if (player_.is_open()) return tools_.at(CommandId::tool_look);
     for (const auto& [id, tool] : tools_)
         if (actions_[id]->isChecked()) return tool;
     return nullptr;
@@ -155,6 +157,8 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
     const QualitySummary& summary = quality->summary;
     show_verdict(summary);
     mesh_panel_->show_quality(summary);
+    quality_panel_->show_live(*quality);
+    if (!drag_.is_active()) return;
     QString validity = describe_validity(summary);
     if (summary.invalid > 0)
         validity += tr(", worst: element %1")
@@ -163,7 +167,6 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
                                summary.invalid > 0     ? "alarm"
                                : summary.undecided > 0 ? "warning"
                                                        : "good");
-    quality_panel_->show_live(*quality);
 }
 
 void MainWindow::show_before() {
