@@ -103,7 +103,7 @@ class TimelineTest : public QObject {
         QVERIFY(test.player().is_open() && test.dock()->isVisible() && test.track().isVisible());
         QCOMPARE(test.document().history()->count(), 2);
         const Coordinates result = test.document().state().mesh->coordinates();
-        QCOMPARE(test.text("timeline_name"), test.document().history()->undoText());
+        QCOMPARE(test.dock()->windowTitle(), QStringLiteral("Timeline: ") + test.document().history()->undoText());
 
         // At the start; at the end it is the document's mesh.
         QCOMPARE(test.player().step(), 0u);
@@ -126,7 +126,7 @@ class TimelineTest : public QObject {
 
     void steps_at_every_level() {
         TimelineUnderTest test;
-        test.record();
+        test.record("Signed angles");
         auto* level = test.find<QComboBox>("timeline_level");
         for (const StepLevel its : {StepLevel::pass, StepLevel::patch, StepLevel::iteration}) {
             test.press("timeline_to_start");
@@ -159,7 +159,7 @@ class TimelineTest : public QObject {
         QVERIFY(patch.has_value());
         QVERIFY(test.arrive());
         const QString place = test.text("timeline_place");
-        QVERIFY2(place.contains(QStringLiteral("pass 1 of")) && place.contains(QStringLiteral(" · patch 2 of")),
+        QVERIFY2(place.contains(QStringLiteral("pass 1/")) && place.contains(QStringLiteral(" · patch 2/")),
                  qPrintable(place));
         test.press("timeline_step_out");
         QCOMPARE(test.player().step(), test.recording().patches()[*patch].last);
@@ -393,7 +393,7 @@ class TimelineTest : public QObject {
         test.window->action(CommandId::timeline_open)->trigger();
         QVERIFY(test.wait_for_job());
         QVERIFY(test.errors.isEmpty() && test.player().is_open());
-        QCOMPARE(test.text("timeline_name"), QStringLiteral("run.jsonl"));
+        QCOMPARE(test.dock()->windowTitle(), QStringLiteral("Timeline: run.jsonl"));
         QCOMPARE(test.recording().step_count(), recording->step_count());
         QCOMPARE(test.recording().patches().size(), recording->patches().size());
         for (const StepNumber step : {recording->step_count() / 3, recording->step_count() - 1}) {
@@ -427,6 +427,33 @@ class TimelineTest : public QObject {
             QVERIFY(test.is_right());
         }
         QCOMPARE(test.document().history()->count(), 2);
+    }
+
+    void a_warp_in_increments_can_be_gone_through() {
+        WindowUnderTest test;
+        const QString folder = QStringLiteral(CURVEWRIGHT_SAMPLES "/annulus/");
+        test.open(folder + QStringLiteral("annulus.msh"), folder + QStringLiteral("deformation.json"));
+        IncrementOptions increments;
+        increments.steps = 3;
+        QVERIFY(test.window->jobs().warp({}, increments) && test.wait_for_job());
+        QVERIFY(!test.window->player().is_open());
+        const auto result = test.window->document().state().mesh;
+        test.window->action(CommandId::timeline_show)->trigger();
+        QVERIFY(test.wait_for_job());
+        QVERIFY2(test.errors.isEmpty(), qPrintable(test.errors.join(QLatin1Char(' '))));
+        StepPlayer& player = test.window->player();
+        QVERIFY(player.is_open());
+        player.set_level(StepLevel::patch);
+        for (const char* percent : {"33.3 %", "66.7 %", "100 %"}) {
+            player.step_by(1);
+            QTRY_VERIFY(!player.is_seeking() && player.shown().step == player.step());
+            QCOMPARE(player.recording()->kind(player.step()), StepKind::increment);
+            QVERIFY2(test.text("timeline_place").contains(QString::fromUtf8(percent)),
+                     qPrintable(test.text("timeline_place")));
+        }
+        QCOMPARE(player.shown().coordinates, result->coordinates());
+        QCOMPARE(test.window->document().state().mesh, result);
+        QCOMPARE(test.window->document().history()->count(), 1);
     }
 
     void another_mesh_closes_it() {

@@ -5,12 +5,14 @@
 #include <QFileInfo>
 
 #include "core/base/error.h"
+#include "core/io/deformation_file.h"
 #include "core/timeline/recorder.h"
 #include "core/timeline/replay.h"
 #include "core/untangle/trace.h"
 #include "core/untangle/trace_reader.h"
 #include "ui/jobs/mesh_jobs.h"
 #include "ui/jobs/mesh_state.h"
+#include "ui/jobs/operation_steps.h"
 
 namespace curvewright {
 namespace {
@@ -43,17 +45,28 @@ bool MeshJobs::untangle_recorded(const UntangleOptions& options) {
 
 bool MeshJobs::can_record(int step) const {
     if (step < 0 || step >= document_.history()->count()) return false;
-    return std::holds_alternative<UntangleAction>(document_.step_action(step));
+    const Action& action = document_.step_action(step);
+    if (const auto* warp = std::get_if<WarpAction>(&action)) return warp->increments.has_value();
+    return std::holds_alternative<UntangleAction>(action);
 }
 
 bool MeshJobs::record_step(int step) {
     if (!can_record(step)) return false;
-    const UntangleOptions options = std::get<UntangleAction>(document_.step_action(step)).options;
+    const Action action = document_.step_action(step);
     const auto mesh = document_.state_at(step).mesh;
     const QString name = document_.history()->text(step);
     return runner_.start(tr("Doing “%1” again").arg(name), [=, this](const TaskContext& context) {
         Recorder recorder({}, context);
-        curvewright::untangle(*mesh, options, &recorder, context);
+        std::optional<UntangleOptions> options;
+        if (const auto* warp = std::get_if<WarpAction>(&action)) {
+            const auto path = std::filesystem::path(warp->deformation);
+            const LoadedDeformation loaded{std::make_shared<const Deformation>(read_deformation(path, context)),
+                                           QString::fromStdString(warp->deformation)};
+            warp_step(*mesh, loaded, warp->options, warp->increments, context, &recorder);
+        } else {
+            options = std::get<UntangleAction>(action).options;
+            curvewright::untangle(*mesh, *options, &recorder, context);
+        }
         context.check();
         const auto recording = recorder.finish();
         return [=, this] { emit recorded({recording, name, options, step}); };

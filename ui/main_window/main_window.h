@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <QMainWindow>
+#include <QTimer>
 
 #include "ui/document/edit_state.h"
 #include "ui/document/journal.h"
@@ -159,6 +160,8 @@ class MainWindow : public QMainWindow {
     void ask_save_trace();
     void open_timeline(const RecordedRun& run);
     void close_timeline();
+    /// The step that the timeline has stopped at, as well as any mesh is drawn.
+    void show_settled();
     /// The elements of the patch that the timeline is in stand out.
     void show_patch();
 
@@ -191,6 +194,7 @@ class MainWindow : public QMainWindow {
     EditState edit_;
     LiveDrag drag_;
     StepPlayer player_;
+    QTimer settled_;
     ElementNumbers element_numbers_;
     RecentFiles recent_;
     SampleCatalog samples_;

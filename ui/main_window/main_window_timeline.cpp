@@ -24,6 +24,11 @@ void MainWindow::connect_timeline() {
     connect(&jobs_, &MeshJobs::recorded, this, &MainWindow::open_timeline);
     connect(&player_, &StepPlayer::frame, this, &MainWindow::show_frame);
     connect(&player_, &StepPlayer::step_changed, this, &MainWindow::show_patch);
+    // Frames are drawn with the chords that there are; a step that is looked at gets its own.
+    settled_.setSingleShot(true);
+    settled_.setInterval(150);
+    connect(&settled_, &QTimer::timeout, this, &MainWindow::show_settled);
+    connect(&player_, &StepPlayer::step_changed, &settled_, qOverload<>(&QTimer::start));
     connect(&player_, &StepPlayer::failed, this, [this](const QString& message) {
         dialogs_.show_error(this, tr("The recording cannot be read"), message);
     });
@@ -83,11 +88,11 @@ void MainWindow::open_timeline(const RecordedRun& run) {
     view_->show_state(start);
     if (actions_[CommandId::compare]->isChecked()) before_view_->show_state(start);
     drag_.set_allowed(false);
+    timeline_dock_->setWindowTitle(tr("Timeline: %1").arg(run.name));
     timeline_dock_->toggleViewAction()->setEnabled(true);
     timeline_dock_->show();
     timeline_dock_->raise();
     player_.open(run.recording);
-    timeline_panel_->set_name(run.name);
     statusBar()->clearMessage();
     update_tool();
     update_commands();
@@ -105,6 +110,17 @@ void MainWindow::close_timeline() {
     show_state();
     update_tool();
     if (document_.has_mesh()) view_->setFocus();
+}
+
+void MainWindow::show_settled() {
+    if (!player_.is_open() || player_.is_seeking()) return;
+    const auto& shown = player_.shown();
+    MeshState state;
+    state.mesh = std::make_shared<const CurvedMesh>(player_.recording()->mesh().with_coordinates(shown.coordinates));
+    state.quality = std::make_shared<const QualityReport>(shown.quality);
+    view_->show_state(state);
+    quality_panel_->show_live(shown.quality);
+    show_patch();
 }
 
 void MainWindow::show_patch() {

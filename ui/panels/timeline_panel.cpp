@@ -27,19 +27,6 @@ TimelinePanel::TimelinePanel(StepPlayer& player, EditState& edit, const Theme& t
     layout->setSpacing(4);
     make_transport();
 
-    name_ = make_label(QString(), "title");
-    name_->setObjectName(QStringLiteral("timeline_name"));
-    place_ = make_label(QString(), "");
-    place_->setObjectName(QStringLiteral("timeline_place"));
-    quality_ = make_label(QString(), "");
-    quality_->setObjectName(QStringLiteral("timeline_quality"));
-    for (QLabel* label : {name_, place_}) label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    auto* line = new QHBoxLayout;
-    line->setSpacing(12);
-    line->addWidget(name_, 2);
-    line->addWidget(place_, 3);
-    line->addWidget(quality_);
-    layout->addLayout(line);
     track_ = new TimelineTrack(player, theme);
     layout->addWidget(track_, 1);
     setFocusProxy(track_);
@@ -118,7 +105,16 @@ void TimelinePanel::make_transport() {
     player_.set_speed(speed);
     speed_->setValue(player_.speed());
     line->addWidget(speed_);
-    line->addStretch(1);
+    line->addSpacing(12);
+    place_ = make_label(QString(), "");
+    place_->setObjectName(QStringLiteral("timeline_place"));
+    place_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
+    line->addWidget(place_, 1);
+    line->addSpacing(8);
+    quality_ = make_label(QString(), "");
+    quality_->setObjectName(QStringLiteral("timeline_quality"));
+    line->addWidget(quality_);
+    line->addSpacing(8);
 
     jump_ = new QToolButton;
     jump_->setObjectName(QStringLiteral("timeline_jump"));
@@ -230,13 +226,6 @@ void TimelinePanel::jump_to_validity(Index element) {
                   : tr("Element %1 is valid from step %2 on.").arg(tag, format_count(static_cast<long long>(*step))));
 }
 
-void TimelinePanel::set_name(const QString& name) {
-    name_->setText(name);
-    name_->setToolTip(player_.is_open() && !player_.recording()->is_complete()
-                          ? tr("%1. The recording ends early: there was no room for more steps.").arg(name)
-                          : name);
-}
-
 void TimelinePanel::show_icons() {
     for (QToolButton* button : buttons_) {
         QString name = button->property("icon_name").toString();
@@ -248,7 +237,7 @@ void TimelinePanel::show_icons() {
 QString TimelinePanel::place_text(const Recording& recording, StepNumber step) {
     QStringList text;
     const auto of = [](const QString& what, qsizetype number, qsizetype count) {
-        return tr("%1 %2 of %3", "pass 2 of 3").arg(what, format_count(number), format_count(count));
+        return tr("%1 %2/%3", "pass 2/3").arg(what, format_count(number), format_count(count));
     };
     const auto passes = recording.passes();
     const auto patches = recording.patches();
@@ -261,13 +250,20 @@ QString TimelinePanel::place_text(const Recording& recording, StepNumber step) {
     } else {
         text << of(tr("step"), step, recording.step_count() - 1);
     }
+    if (recording.kind(step) == StepKind::increment) {
+        const auto increment = std::get<WarpIncrement>(recording.read(step));
+        const QString percent = short_number(100.0 * increment.fraction);
+        text << (increment.is_accepted ? tr("%1 % of the motion") : tr("%1 % of the motion: refused")).arg(percent);
+    }
     return text.join(QStringLiteral(" · "));
 }
 
 void TimelinePanel::show_step() {
     const auto& shown = player_.shown();
     place_->setText(place_text(*player_.recording(), shown.step));
-    place_->setToolTip(place_->text());
+    place_->setToolTip(player_.recording()->is_complete()
+                           ? place_->text()
+                           : tr("%1\nThe recording ends early: there was no room for more steps.").arg(place_->text()));
     const QualityPoint& point = player_.recording()->quality_at(shown.step);
     quality_->setText(tr("min J %1, %2").arg(
         format_number(point.min_scaled_jacobian),

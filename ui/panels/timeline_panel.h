@@ -26,12 +26,10 @@ class TimelinePanel : public QWidget {
   public:
     TimelinePanel(StepPlayer& player, EditState& edit, const Theme& theme, QWidget* parent = nullptr);
 
-    /// What is played.
-    void set_name(const QString& name);
     /// Who asks for an element's tag; "" = given up.
     void set_question(std::function<QString(const QString& title, const QString& label)> ask) { ask_ = std::move(ask); }
     TimelineTrack& track() { return *track_; }
-    /// "pass 2 of 3 · patch 14 of 61 · step 9 of 120".
+    /// "pass 2/3 · patch 14/61 · step 9/120".
     static QString place_text(const Recording& recording, StepNumber step);
 
   signals:
@@ -62,7 +60,7 @@ class TimelinePanel : public QWidget {
     QToolButton *play_ = nullptr, *breaks_ = nullptr, *jump_ = nullptr;
     QComboBox* level_ = nullptr;
     QDoubleSpinBox* speed_ = nullptr;
-    QLabel *name_ = nullptr, *place_ = nullptr, *quality_ = nullptr;
+    QLabel *place_ = nullptr, *quality_ = nullptr;
     QAction* crossing_ = nullptr;
     std::function<QString(const QString&, const QString&)> ask_;
 };
