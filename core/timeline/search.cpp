@@ -96,6 +96,30 @@ std::optional<StepNumber> next_break(const Recording& recording, StepNumber step
     return first;
 }
 
+std::vector<StepNumber> break_steps(const Recording& recording, const Breakpoints& breakpoints,
+                                    const TaskContext& context) {
+    std::vector<StepNumber> steps;
+    const auto points = recording.quality_points();
+    for (std::size_t i = 1; breakpoints.min_crosses_zero && i < points.size(); ++i)
+        if ((points[i].min_scaled_jacobian > 0.0f) != (points[i - 1].min_scaled_jacobian > 0.0f))
+            steps.push_back(points[i].step);
+    std::vector<Index> elements = breakpoints.elements, nodes = breakpoints.nodes;
+    std::sort(elements.begin(), elements.end());
+    std::sort(nodes.begin(), nodes.end());
+    if (!elements.empty())
+        for (const ValidityChange& change : recording.validity_changes())
+            if (std::binary_search(elements.begin(), elements.end(), change.element)) steps.push_back(change.step);
+    if (!elements.empty() || !nodes.empty())
+        for (const RecordedPatch& patch : recording.patches()) {
+            context.check();
+            const auto began = std::get<event::PatchBegan>(recording.read(patch.first));
+            if (have_common(elements, began.elements) || have_common(nodes, began.nodes)) steps.push_back(patch.first);
+        }
+    std::sort(steps.begin(), steps.end());
+    steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
+    return steps;
+}
+
 std::vector<event::Position> node_path(const Recording& recording, Index node, StepNumber step) {
     const RecordedPatch& patch = recording.patches()[*recording.patch_of(step)];
     const auto began = std::get<event::PatchBegan>(recording.read(patch.first));

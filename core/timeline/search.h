@@ -35,6 +35,10 @@ struct Breakpoints {
 std::optional<StepNumber> next_break(const Recording& recording, StepNumber step, const Breakpoints& breakpoints,
                                      const TaskContext& context = {});
 
+/// All of them, ascending. Throws Cancelled.
+std::vector<StepNumber> break_steps(const Recording& recording, const Breakpoints& breakpoints,
+                                    const TaskContext& context = {});
+
 /// Where one of a patch's nodes was in the steps of the patch up to a step, from the patch's start; each position once.
 /// pre: the step is in a patch with this node.
 std::vector<untangle_event::Position> node_path(const Recording& recording, Index node, StepNumber step);

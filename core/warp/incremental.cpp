@@ -37,7 +37,8 @@ class StepProgress {
 }  // namespace
 
 IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath& path, const WarpOptions& options,
-                                     const IncrementOptions& increments, const TaskContext& context) {
+                                     const IncrementOptions& increments, const TaskContext& context,
+                                     const IncrementObserver& observer) {
     if (increments.steps < 0 || increments.steps > 100000)
         throw InvalidInput(fmt::format("{} increments; expected 1 to 100000, or 0 for automatic.", increments.steps));
     if (!(increments.smallest_step > 0.0 && increments.smallest_step <= 1.0))
@@ -79,6 +80,7 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
         QualityReport quality = assess_quality(mesh.with_coordinates(moved.coordinates), quality_options, inner);
         const bool is_accepted = is_valid(quality.summary);
         report.steps.push_back({target, quality.summary, is_accepted});
+        if (observer) observer(report.steps.back(), moved.coordinates);
         result.report = std::move(moved.report);
         if (is_accepted) {
             report.fraction = target;

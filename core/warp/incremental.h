@@ -34,6 +34,9 @@ struct IncrementStep {
     bool is_accepted = false;
 };
 
+/// Is told of every state tried, accepted or not, with its positions, on the thread that warps.
+using IncrementObserver = std::function<void(const IncrementStep& step, const Coordinates& coordinates)>;
+
 struct IncrementReport {
     std::vector<IncrementStep> steps;  ///< in the order tried
     double fraction = 0.0;             ///< reached with every element valid
@@ -57,7 +60,8 @@ struct IncrementalResult {
 /// valid to begin with (the worst is named) or for wrong options, Unsupported for elements whose validity cannot be
 /// assessed, what warp throws, Cancelled.
 IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath& path, const WarpOptions& options,
-                                     const IncrementOptions& increments, const TaskContext& context = {});
+                                     const IncrementOptions& increments, const TaskContext& context = {},
+                                     const IncrementObserver& observer = {});
 
 /// "Step 3 of 4 (75 % of the motion) tangled element 17 (scaled Jacobian -0.12); stopped at 50 %."; for a complete
 /// motion how many steps it took.

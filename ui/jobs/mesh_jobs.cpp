@@ -85,11 +85,12 @@ bool MeshJobs::load_deformation(const QString& path) {
 }
 
 bool MeshJobs::run_step(const QString& title, bool applies_deformation,
-                        std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep) {
+                        std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep,
+                        std::function<void()> then) {
     const MeshState start = document_.state();
     QStringList applied = start.applied_deformations;
     if (applies_deformation) applied << document_.deformation()->file_path;
-    auto work = [this, start, applied, step = std::move(step)](const TaskContext& context,
+    auto work = [this, start, applied, step = std::move(step), then = std::move(then)](const TaskContext& context,
                                                                const std::stop_token& keep) {
         // The step stops for either reason; what is done with its result is only stopped by cancelling.
         std::stop_source either;
@@ -107,8 +108,10 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
             result.action
                 ? std::move(*result.action)
                 : Action(place_action(start.mesh->topology(), start.mesh->coordinates(), state.mesh->coordinates()));
-        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action)] {
+        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action),
+                then] {
             document_.apply(name, state, action, details);
+            if (then) then();
             if (!text.isEmpty()) emit note(text);
         };
     };
@@ -138,7 +141,7 @@ bool MeshJobs::untangle(const UntangleOptions& options) {
     return run_step(
         tr("Untangling"), false,
         [options](const CurvedMesh& mesh, const TaskContext& context) {
-            return curvewright::untangle(mesh, options, context);
+            return curvewright::untangle(mesh, options, nullptr, context);
         },
         can_keep);
 }

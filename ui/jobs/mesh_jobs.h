@@ -7,6 +7,7 @@
 #include <QString>
 
 #include "core/io/mesh_io.h"
+#include "core/timeline/recording.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/film.h"
@@ -27,6 +28,15 @@ struct OpenRequest {
     bool is_starting_point = false;
     /// Called on the window's thread when the mesh is there, before finished().
     std::function<void()> then;
+};
+
+/// A recording and where it comes from.
+struct RecordedRun {
+    std::shared_ptr<const Recording> recording;
+    QString name;
+    std::optional<UntangleOptions> options;  ///< none: not an untangling done here
+    /// The step of the document's history (0 = the first after opening) that it shows; -1 = none.
+    int history_step = -1;
 };
 
 /// The operations of the window on its document: each takes a snapshot of the present state, calls the core on a worker
@@ -56,6 +66,13 @@ class MeshJobs : public QObject {
     bool warp(const WarpOptions& options, const std::optional<IncrementOptions>& increments = {});
     /// Moves interior nodes until no element is tangled, by the method that the options belong to.
     bool untangle(const UntangleOptions& options);
+    /// The same, and recorded() follows.
+    bool untangle_recorded(const UntangleOptions& options);
+    /// Does a step of the history again, for its recording; the document stays. recorded() follows.
+    bool record_step(int step);
+    /// Reads what a TraceWriter wrote of an untangling of the open mesh. recorded() follows.
+    bool open_trace(const QString& path);
+    bool save_trace(const std::shared_ptr<const Recording>& recording, const QString& path);
     /// Numbers every element the other way round.
     bool flip();
     /// Writes the present state; VTU and VTK with quality and the displacement from the mesh as opened. mark_saved: the
@@ -72,16 +89,21 @@ class MeshJobs : public QObject {
     QString why_not_deform() const;
     QString why_not_warp() const;
     QString why_not_untangle(UntangleMethod method) const;
+    /// Whether a step of the history goes through steps of its own: an untangling, or a warp in increments.
+    bool can_record(int step) const;
 
   signals:
+    void recorded(const RecordedRun& run);
     /// What a finished operation has to say, one line: "Moved 3,232 interior nodes, iterative solver, 41 iterations."
     void note(const QString& text);
 
   private:
     void restore(const RestoredWork& work);
+    /// then: called on the window's thread after the document has the step.
     /// can_keep: where the context says stop, the step returns the best it has instead of throwing.
     bool run_step(const QString& title, bool applies_deformation,
-                  std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false);
+                  std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false,
+                  std::function<void()> then = {});
 
     MeshDocument& document_;
     JobRunner runner_;

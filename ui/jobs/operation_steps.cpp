@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/deform/deformation.h"
 #include "core/session/replay.h"
+#include "core/timeline/recorder.h"
 #include "ui/document/number_format.h"
 #include "ui/jobs/untangling.h"
 
@@ -112,7 +113,8 @@ Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded) {
 }
 
 Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const WarpOptions& options,
-               const std::optional<IncrementOptions>& increments, const TaskContext& context) {
+               const std::optional<IncrementOptions>& increments, const TaskContext& context,
+               Recorder* recorder) {
     WarpOptions with_interfaces = options;
     with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
     Step step;
@@ -120,7 +122,19 @@ Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const Wa
     double fraction = 1.0;
     if (increments) {
         const BoundaryPath path = [&](double part) { return apply_deformation(mesh, *loaded.deformation, part); };
-        IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context);
+        IncrementObserver observer;
+        if (recorder) {
+            recorder->begin_warp(mesh);
+            observer = [recorder](const IncrementStep& tried, const Coordinates& coordinates) {
+                recorder->add_increment({tried.fraction, tried.is_accepted, tried.summary.min, tried.summary.invalid,
+                                         tried.summary.undecided},
+                                        coordinates);
+            };
+        }
+        IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context, observer);
+        if (recorder)
+            recorder->end_warp(result.coordinates, result.increments.is_complete() ? StopReason::converged
+                                                                                   : StopReason::no_progress);
         fraction = result.increments.fraction;
         const QString way = describe_increments(result.increments, mesh.topology());
         if (fraction == 0.0)
@@ -170,7 +184,7 @@ Step again(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opene
                        return warp_step(mesh, load(its.deformation), its.options, its.increments, context);
                    },
                    [&](const UntangleAction& its) {
-                       Step step = untangle(mesh, its.options, context);
+                       Step step = untangle(mesh, its.options, nullptr, context);
                        context.check();
                        return step;
                    },

@@ -10,15 +10,18 @@
 
 namespace curvewright {
 
+class Recorder;
+
 // What the operations make of a mesh, with the words for it. All throw like the core's functions.
 
 /// "By FILE".
 QString by_file(const QString& deformation_path);
 
 Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded);
-/// At once or in increments. Throws SolverFailure if no increment goes without tangled elements.
+/// At once or in increments; those are told to a recorder. Throws SolverFailure if no increment goes without tangled elements.
 Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const WarpOptions& options,
-               const std::optional<IncrementOptions>& increments, const TaskContext& context);
+               const std::optional<IncrementOptions>& increments, const TaskContext& context,
+               Recorder* recorder = nullptr);
 /// Its coordinates are the mesh's: what changes is the numbering (flip_orientation).
 Step flip_step(const CurvedMesh& mesh);
 

@@ -59,9 +59,9 @@ QString describe_passes(const UntangleResult& result) {
     return {};
 }
 
-Step run(const CurvedMesh& mesh, GuaranteedOptions options, const TaskContext& context) {
+Step run(const CurvedMesh& mesh, GuaranteedOptions options, UntangleObserver* observer, const TaskContext& context) {
     options.keeps_best_on_cancel = true;
-    GuaranteedResult result = untangle_guaranteed(mesh, options, nullptr, context);
+    GuaranteedResult result = untangle_guaranteed(mesh, options, observer, context);
     Step step;
     step.name = tr("Untangle, guaranteed");
     step.details = options.improves ? tr("Elements below %1 improved afterwards").arg(short_number(options.target))
@@ -82,8 +82,8 @@ Step run(const CurvedMesh& mesh, GuaranteedOptions options, const TaskContext& c
     return step;
 }
 
-Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, const TaskContext& context) {
-    UntangleResult result = untangle_signed_angles(mesh, options, nullptr, context);
+Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, UntangleObserver* observer, const TaskContext& context) {
+    UntangleResult result = untangle_signed_angles(mesh, options, observer, context);
     Step step;
     const bool is_automatic = options.beta_choice == BetaChoice::automatic;
     step.name = is_automatic ? tr("Untangle, signed angles, β chosen")
@@ -98,8 +98,8 @@ Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, const TaskCo
     return step;
 }
 
-Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, const TaskContext& context) {
-    UntangleResult result = untangle_unsigned_angles(mesh, options, nullptr, context);
+Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, UntangleObserver* observer, const TaskContext& context) {
+    UntangleResult result = untangle_unsigned_angles(mesh, options, observer, context);
     Step step;
     step.name = tr("Untangle, unsigned angles");
     step.details = options.is_guarded ? tr("Several starts and steps per edge, the best by its certificate")
@@ -126,8 +126,9 @@ QString why_not_untangle(const MeshTopology& topology, UntangleMethod method) {
     return {};
 }
 
-Step untangle(const CurvedMesh& mesh, const UntangleOptions& options, const TaskContext& context) {
-    return std::visit([&](const auto& of_method) { return run(mesh, of_method, context); }, options);
+Step untangle(const CurvedMesh& mesh, const UntangleOptions& options, UntangleObserver* observer,
+              const TaskContext& context) {
+    return std::visit([&](const auto& of_method) { return run(mesh, of_method, observer, context); }, options);
 }
 
 }  // namespace curvewright

@@ -82,6 +82,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     connect_session();
     connect_views();
     connect_report();
+    connect_timeline();
     connect_keyboard();
     const QString saved_theme = QSettings().value(QStringLiteral("theme"), QStringLiteral("system")).toString();
     for (const auto& entry : theme_choices)
@@ -163,7 +164,8 @@ void MainWindow::connect_document() {
     JobRunner& runner = jobs_.runner();
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_tool);
-    connect(&runner, &JobRunner::running_changed, &drag_, [this] { drag_.set_allowed(!jobs_.runner().is_running()); });
+    connect(&runner, &JobRunner::running_changed, &drag_,
+            [this] { drag_.set_allowed(!jobs_.runner().is_running() && !player_.is_open()); });
     connect(&runner, &JobRunner::started, statusBar(), &QStatusBar::clearMessage);
     connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
         after_save_ = nullptr;
@@ -292,6 +294,10 @@ void MainWindow::update_commands() {
     actions_[CommandId::warp]->setEnabled(is_idle && warp_panel_->why_not().isEmpty());
     actions_[CommandId::untangle]->setEnabled(is_idle && untangle_panel_->why_not().isEmpty());
     actions_[CommandId::flip]->setEnabled(is_idle && has_mesh && document_.state().quality);
+    actions_[CommandId::timeline_show]->setEnabled(is_idle && step_to_record() >= 0);
+    actions_[CommandId::timeline_open]->setEnabled(is_idle && has_mesh && document_.state().quality);
+    actions_[CommandId::timeline_save]->setEnabled(is_idle && player_.is_open());
+    actions_[CommandId::timeline_close]->setEnabled(player_.is_open());
     actions_[CommandId::stop]->setEnabled(jobs_.runner().is_running());
     for (const auto& [id, tool] : tools_) actions_[id]->setEnabled(has_mesh);
     actions_[CommandId::soft]->setEnabled(has_mesh);

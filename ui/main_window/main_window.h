@@ -5,6 +5,7 @@
 #include <optional>
 
 #include <QMainWindow>
+#include <QTimer>
 
 #include "ui/document/edit_state.h"
 #include "ui/document/journal.h"
@@ -16,6 +17,7 @@
 #include "ui/jobs/element_numbers.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
+#include "ui/jobs/step_player.h"
 #include "ui/main_window/commands.h"
 #include "ui/main_window/dialogs.h"
 #include "ui/panels/theme.h"
@@ -42,6 +44,9 @@ class PointerTag;
 class QualityPanel;
 class SelectionPanel;
 class StartPage;
+class StepPanel;
+class StepTool;
+class TimelinePanel;
 class Tool;
 class UntanglePanel;
 class WarpPanel;
@@ -59,6 +64,7 @@ class MainWindow : public QMainWindow {
     MeshJobs& jobs() { return jobs_; }
     EditState& edit() { return edit_; }
     LiveDrag& drag() { return drag_; }
+    StepPlayer& player() { return player_; }
     MeshView& view() { return *view_; }
     QAction* action(CommandId id) const { return actions_[id]; }
 
@@ -150,6 +156,21 @@ class MainWindow : public QMainWindow {
     void open_session(const QString& path);
     void ask_open_session();
 
+    // main_window_timeline.cpp
+    void connect_timeline();
+    int step_to_record() const;
+    void record_again();
+    void ask_open_trace();
+    void ask_save_trace();
+    void open_timeline(const RecordedRun& run);
+    void close_timeline();
+    /// The step that the timeline has stopped at, as well as any mesh is drawn.
+    void show_settled();
+    /// The step that is shown, in words and pictures.
+    void explain_step();
+    /// The elements of the patch that the timeline is in stand out.
+    void show_patch();
+
     // main_window_views.cpp
     void connect_views();
     void fill_bookmarks_menu();
@@ -183,6 +204,8 @@ class MainWindow : public QMainWindow {
     MeshJobs jobs_;
     EditState edit_;
     LiveDrag drag_;
+    StepPlayer player_;
+    QTimer settled_;
     ElementNumbers element_numbers_;
     RecentFiles recent_;
     SampleCatalog samples_;
@@ -212,7 +235,10 @@ class MainWindow : public QMainWindow {
     UntanglePanel* untangle_panel_ = nullptr;
     WorstTable* worst_table_ = nullptr;
     QualityPanel* quality_panel_ = nullptr;
-    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr;
+    TimelinePanel* timeline_panel_ = nullptr;
+    StepPanel* step_panel_ = nullptr;
+    StepTool* step_tool_ = nullptr;  ///< in place of the others while a timeline is open
+    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr, *timeline_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
     QList<QAction*> bookmark_actions_;
@@ -221,6 +247,9 @@ class MainWindow : public QMainWindow {
     std::shared_ptr<const FieldArray> numbers_now_, numbers_before_;
 
     std::function<void()> banner_action_;
+    UntangleOptions options_of_run_;  ///< that the timeline shows
+    int tab_before_timeline_ = 0;
+
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name
     std::optional<MeshFormat> pending_format_;  ///< of the file that is being saved

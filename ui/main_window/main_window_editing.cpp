@@ -23,6 +23,7 @@
 #include "ui/tools/look_tool.h"
 #include "ui/tools/pin_tool.h"
 #include "ui/tools/select_tool.h"
+#include "ui/tools/step_tool.h"
 #include "ui/tools/transform_tool.h"
 
 namespace curvewright {
@@ -31,6 +32,7 @@ void MainWindow::build_tools() {
     pointer_tag_ = new PointerTag(view_);
     const ToolContext context{*view_, edit_, drag_};
     tools_[CommandId::tool_look] = new LookTool(context, this);
+    step_tool_ = new StepTool(context, this);
     tools_[CommandId::tool_select] = new SelectTool(context, this);
     tools_[CommandId::tool_drag] = new DragTool(context, this);
     tools_[CommandId::tool_transform] = new TransformTool(context, this);
@@ -130,6 +132,8 @@ void MainWindow::connect_editing() {
 
 Tool* MainWindow::current_tool() const {
     if (jobs_.runner().is_running() || !document_.has_mesh()) return nullptr;
+    // What a recording shows is looked at, and not the document's to edit.
+    if (player_.is_open()) return step_tool_;
     for (const auto& [id, tool] : tools_)
         if (actions_[id]->isChecked()) return tool;
     return nullptr;
@@ -166,6 +170,11 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
     show_verdict(summary);
     mesh_panel_->show_quality(summary);
     worst_table_->show_live(*quality);
+    if (player_.is_open())
+        quality_panel_->show_live(quality->elements, player_.recording()->start_quality().elements);
+    else
+        quality_panel_->show_live(*quality);
+    if (!drag_.is_active()) return;
     QString validity = describe_validity(summary);
     if (summary.invalid > 0)
         validity += tr(", worst: element %1")
@@ -175,7 +184,6 @@ void MainWindow::show_frame(const Coordinates& positions, const QualityReport* q
                                summary.invalid > 0     ? "alarm"
                                : summary.undecided > 0 ? "warning"
                                                        : "good");
-    quality_panel_->show_live(*quality);
 }
 
 void MainWindow::show_before() {

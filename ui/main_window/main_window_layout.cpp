@@ -29,6 +29,8 @@
 #include "ui/panels/quality_panel.h"
 #include "ui/panels/selection_panel.h"
 #include "ui/panels/start_page.h"
+#include "ui/panels/step_panel.h"
+#include "ui/panels/timeline_panel.h"
 #include "ui/panels/untangle_panel.h"
 #include "ui/panels/widgets.h"
 #include "ui/panels/worst_table.h"
@@ -189,6 +191,8 @@ void MainWindow::build_docks() {
     untangle_panel_ = new UntanglePanel(jobs_);
     worst_table_ = new WorstTable(document_, theme_);
     quality_panel_ = new QualityPanel(document_, theme_);
+    timeline_panel_ = new TimelinePanel(player_, edit_, theme_);
+    step_panel_ = new StepPanel(theme_);
 
     tabs_ = new QTabWidget;
     tabs_->setObjectName(QStringLiteral("operations_tabs"));
@@ -203,12 +207,14 @@ void MainWindow::build_docks() {
                 {selection_panel_, "inspect_tab", tr("Inspect")},
                 {deform_panel_, "deform_tab", tr("Deform")},
                 {warp_panel_, "warp_tab", tr("Warp")},
-                {untangle_panel_, "untangle_tab", tr("Untangle")}};
+                {untangle_panel_, "untangle_tab", tr("Untangle")},
+                {step_panel_, "step_tab", tr("Step")}};
     for (const auto& tab : tabs) {
         QScrollArea* area = scrolling(tab.panel);
         area->setObjectName(QLatin1String(tab.name));
         tabs_->addTab(area, tab.title);
     }
+    tabs_->setTabVisible(tabs_->count() - 1, false);  // until there is a timeline
     auto* right = new QSplitter(Qt::Vertical);
     right->setObjectName(QStringLiteral("right_splitter"));
     right->addWidget(tabs_);
@@ -223,13 +229,21 @@ void MainWindow::build_docks() {
     right_dock_ = add_dock(QStringLiteral("operations_dock"), tr("Operations"), Qt::RightDockWidgetArea, right);
     bottom_dock_ =
         add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
+    timeline_dock_ =
+        add_dock(QStringLiteral("timeline_dock"), tr("Timeline"), Qt::BottomDockWidgetArea, timeline_panel_);
+    setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
+    tabifyDockWidget(bottom_dock_, timeline_dock_);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     // The tabs and the headings say what these two are.
     right_dock_->setTitleBarWidget(new QWidget);
     bottom_dock_->setTitleBarWidget(new QWidget);
+    timeline_dock_->setTitleBarWidget(new QWidget);
     left_dock_->setTitleBarWidget(new QWidget);
     resizeDocks({left_dock_, right_dock_}, {240, 288}, Qt::Horizontal);
     resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
+    // Until there is a recording.
+    timeline_dock_->hide();
+    timeline_dock_->toggleViewAction()->setEnabled(false);
 }
 
 void MainWindow::build_status_bar() {
@@ -256,6 +270,7 @@ void MainWindow::restore_layout() {
     resize(qMin(1280, available.width() - frame_width), qMin(800, available.height() - frame_height));
     restoreGeometry(settings.value(QStringLiteral("window/geometry")).toByteArray());
     restoreState(settings.value(QStringLiteral("window/state")).toByteArray(), layout_version);
+    timeline_dock_->hide();
     const struct {
         CommandId id;
         bool is_on;
@@ -285,6 +300,7 @@ void MainWindow::save_layout() const {
 
 void MainWindow::reset_layout() {
     restoreState(first_layout_, layout_version);
+    timeline_dock_->setVisible(player_.is_open());
     for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {
         dock->setProperty("closed_by_user", false);
         dock->setVisible(document_.has_mesh());

@@ -5,6 +5,7 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
+#include <QPushButton>
 #include <QSpinBox>
 #include <QVBoxLayout>
 
@@ -16,8 +17,18 @@ namespace curvewright {
 UntanglePanel::UntanglePanel(MeshJobs& jobs, QWidget* parent)
     : OperationPanel(jobs, tr("Untangle"), QStringLiteral("untangle_button"), parent) {
     make_fields();
-    make_panel_layout(this)->addLayout(form_);
+    QVBoxLayout* layout = make_panel_layout(this);
+    layout->addLayout(form_);
+    recorded_ = new QPushButton(tr("Step by step"));
+    recorded_->setObjectName(QStringLiteral("step_by_step_button"));
+    recorded_->setToolTip(tr("Untangles the same way, and opens a timeline of everything that the method did"));
+    connect(recorded_, &QPushButton::clicked, this, [this] { jobs_.untangle_recorded(options()); });
     finish_layout();
+    auto* buttons = new QHBoxLayout;
+    buttons->setSpacing(8);
+    layout->insertLayout(layout->indexOf(button_), buttons);
+    buttons->addWidget(button_, 1);
+    buttons->addWidget(recorded_);
 }
 
 void UntanglePanel::make_fields() {
@@ -119,6 +130,11 @@ void UntanglePanel::show_fields() {
 
 void UntanglePanel::run() {
     jobs_.untangle(options());
+}
+
+void UntanglePanel::refresh() {
+    OperationPanel::refresh();
+    recorded_->setEnabled(button_->isEnabled());
 }
 
 QString UntanglePanel::why_not() const {

@@ -22,10 +22,12 @@ class UntanglePanel : public OperationPanel {
     void choose_guaranteed();
 
   private:
+    void refresh() override;
     void make_fields();
     /// Only what belongs to the method chosen.
     void show_fields();
 
+    QPushButton* recorded_ = nullptr;
     QComboBox* method_ = nullptr;
     BoundaryField* boundary_ = nullptr;
     QCheckBox *chooses_beta_ = nullptr, *improves_ = nullptr, *reject_ = nullptr, *literal_ = nullptr;
