@@ -136,6 +136,7 @@ void StepPlayer::open(std::shared_ptr<const Recording> recording) {
     start->coordinates = recording_->mesh().coordinates();
     start->quality = recording_->start_quality();
     start->has_quality = true;
+    start->explanation = std::make_shared<const StepExplanation>();  // there is nothing yet
     shown_ = std::move(start);
     worker_ = std::make_unique<Worker>(*this, recording_, ++generation_);
     emit opened_changed(true);

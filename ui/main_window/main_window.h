@@ -168,6 +168,8 @@ class MainWindow : public QMainWindow {
     void show_settled();
     /// The step that is shown, in words and pictures.
     void explain_step();
+    /// The patch fills the view.
+    void look_at_patch();
     /// The elements of the patch that the timeline is in stand out.
     void show_patch();
 
@@ -249,6 +251,8 @@ class MainWindow : public QMainWindow {
     std::function<void()> banner_action_;
     UntangleOptions options_of_run_;  ///< that the timeline shows
     int tab_before_timeline_ = 0;
+    QList<int> sizes_before_timeline_;  ///< of the right splitter
+    std::optional<std::size_t> followed_patch_;
 
     std::function<void()> after_save_;
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDockWidget>
 #include <QFileInfo>
+#include <QSplitter>
 #include <QStatusBar>
 
 #include "ui/main_window/main_window.h"
@@ -38,6 +39,7 @@ void MainWindow::connect_timeline() {
     connect(view_, &MeshView::frame_drawn, &player_, [this] { player_.hold_frames(false); });
     connect(&player_, &StepPlayer::step_changed, this, &MainWindow::explain_step);
     connect(step_panel_, &StepPanel::step_chosen, &player_, &StepPlayer::go_to);
+    connect(step_panel_, &StepPanel::follow_wanted, this, &MainWindow::look_at_patch);
     connect(step_panel_, &StepPanel::trial_changed, this, [this] {
         step_tool_->show_trial(step_panel_->trial(), step_panel_->shows_contours());
         if (player_.is_open()) step_tool_->refresh();
@@ -104,6 +106,9 @@ void MainWindow::open_timeline(const RecordedRun& run) {
     tab_before_timeline_ = tabs_->currentIndex();
     tabs_->setTabVisible(tabs_->count() - 1, true);
     tabs_->setCurrentIndex(tabs_->count() - 1);
+    // There is more to be said of a step than of the worst elements.
+    sizes_before_timeline_ = right_splitter_->sizes();
+    right_splitter_->setSizes({1000, 150});
     player_.open(run.recording);
     statusBar()->clearMessage();
     update_tool();
@@ -117,6 +122,7 @@ void MainWindow::close_timeline() {
     step_panel_->clear();
     if (tabs_->currentIndex() == tabs_->count() - 1) tabs_->setCurrentIndex(tab_before_timeline_);
     tabs_->setTabVisible(tabs_->count() - 1, false);
+    right_splitter_->setSizes(sizes_before_timeline_);
     timeline_dock_->hide();
     timeline_dock_->toggleViewAction()->setEnabled(false);
     bottom_dock_->raise();
@@ -150,6 +156,25 @@ void MainWindow::explain_step() {
                            options_of_run_, axes.col(0).transpose(), axes.col(1).transpose());
     step_tool_->show_step(shown.explanation, shown.coordinates);
     step_tool_->refresh();
+    const auto patch = recording->patch_of(shown.step);
+    if (patch && patch != followed_patch_ && step_panel_->follows_patches() && !player_.is_playing()) look_at_patch();
+    followed_patch_ = patch;
+}
+
+void MainWindow::look_at_patch() {
+    if (!player_.is_open() || !player_.shown().patch) return;
+    const StepPlayer::Shown& shown = player_.shown();
+    const MeshTopology& topology = player_.recording()->mesh().topology();
+    Eigen::RowVector3d lower, upper;
+    bool is_first = true;
+    for (const Index element : shown.patch->elements)
+        for (const Index node : topology.element_nodes(element)) {
+            const Eigen::RowVector3d at = shown.coordinates.row(node);
+            lower = is_first ? at : lower.cwiseMin(at).eval();
+            upper = is_first ? at : upper.cwiseMax(at).eval();
+            is_first = false;
+        }
+    if (!is_first) view_->fit_to(0.5 * (lower + upper), 0.55 * (upper - lower).norm());
 }
 
 void MainWindow::show_patch() {

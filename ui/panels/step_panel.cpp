@@ -65,9 +65,13 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     numbers_->setObjectName(QStringLiteral("step_numbers"));
     numbers_->setTextInteractionFlags(Qt::TextSelectableByMouse);
     plot_ = new ConvergencePlot(theme);
+    follows_ = new QCheckBox(tr("Keep the patch in view"));
+    follows_->setObjectName(QStringLiteral("step_follows"));
+    follows_->setToolTip(tr("Fly to every patch that comes into focus, unless the timeline plays."));
     layout->addWidget(title_);
     layout->addWidget(text_);
     layout->addWidget(numbers_);
+    layout->addWidget(follows_);
     layout->addWidget(plot_);
 
     trial_box_ = new QWidget;
@@ -121,6 +125,9 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
             std::lround(slider_steps * std::log(std::max(value, lower) / lower) / std::log(upper / lower))));
         ask();
     });
+    connect(follows_, &QCheckBox::toggled, this, [this](bool is_on) {
+        if (is_on) emit follow_wanted();
+    });
     connect(contours_, &QCheckBox::toggled, this, &StepPanel::trial_changed);
     connect(&trials_, &PatchTrials::answered, this, [this](const std::shared_ptr<const TrialResult>& result) {
         trial_ = result;
@@ -144,6 +151,10 @@ StepPanel::~StepPanel() = default;
 
 bool StepPanel::shows_contours() const {
     return contours_->isChecked();
+}
+
+bool StepPanel::follows_patches() const {
+    return follows_->isChecked();
 }
 
 void StepPanel::clear() {

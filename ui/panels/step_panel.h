@@ -37,11 +37,15 @@ class StepPanel : public QWidget {
     /// Null if there is none (yet).
     const std::shared_ptr<const TrialResult>& trial() const { return trial_; }
     bool shows_contours() const;
+    /// Whether the view is to go to every patch that comes into focus.
+    bool follows_patches() const;
 
   signals:
     void step_chosen(StepNumber step);
     /// trial() or shows_contours() has changed.
     void trial_changed();
+    /// follows_patches() has become true.
+    void follow_wanted();
 
   private:
     struct Parameter;
@@ -57,7 +61,7 @@ class StepPanel : public QWidget {
     LandscapeView* landscape_ = nullptr;
     QSlider* slider_ = nullptr;
     LogSpinBox* number_ = nullptr;
-    QCheckBox* contours_ = nullptr;
+    QCheckBox *contours_ = nullptr, *follows_ = nullptr;
     PatchTrials trials_;
     TrialRequest request_;
     std::shared_ptr<const TrialResult> trial_;

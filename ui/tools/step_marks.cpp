@@ -67,7 +67,9 @@ Marks step_marks(const StepExplanation& step, const Coordinates& positions, cons
     const double z = positions(*step.focus, 2);
     if (step.angles.size() == 4)
         for (std::size_t i = 0; i < 4; ++i) {
-            const double unit = canvas.units_per_pixel(to_row(step.angles[i].corner));
+            // Of constant size, but never longer than a part of the edge.
+            const double unit = std::min(canvas.units_per_pixel(to_row(step.angles[i].corner)),
+                                         0.42 * step.edge_length / label_pixels);
             add_angle(marks, step.angles[i], unit, i >= 2);
         }
     if (step.path.size() > 1) marks.lines.push_back({step.path, MarkRole::path, 1.0});
