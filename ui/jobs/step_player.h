@@ -24,7 +24,7 @@ class StepPlayer : public QObject {
         StepNumber step = 0;
         Coordinates coordinates;
         QualityReport quality;
-        bool has_quality = false;  ///< false: the quality is that of an earlier step
+        bool has_quality = false;                         ///< false: the quality is that of an earlier step
         std::optional<untangle_event::PatchBegan> patch;  ///< that the step is in
     };
 

@@ -163,7 +163,8 @@ void MainWindow::connect_document() {
     JobRunner& runner = jobs_.runner();
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_commands);
     connect(&runner, &JobRunner::running_changed, this, &MainWindow::update_tool);
-    connect(&runner, &JobRunner::running_changed, &drag_, [this] { drag_.set_allowed(!jobs_.runner().is_running() && !player_.is_open()); });
+    connect(&runner, &JobRunner::running_changed, &drag_,
+            [this] { drag_.set_allowed(!jobs_.runner().is_running() && !player_.is_open()); });
     connect(&runner, &JobRunner::started, statusBar(), &QStatusBar::clearMessage);
     connect(&runner, &JobRunner::failed, this, [this](const QString& title, const QString& message) {
         after_save_ = nullptr;

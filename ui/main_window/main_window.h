@@ -225,8 +225,7 @@ class MainWindow : public QMainWindow {
     WorstTable* worst_table_ = nullptr;
     QualityPanel* quality_panel_ = nullptr;
     TimelinePanel* timeline_panel_ = nullptr;
-    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr,
-                *timeline_dock_ = nullptr;
+    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr, *timeline_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
     QList<QAction*> bookmark_actions_;

@@ -114,8 +114,8 @@ void MainWindow::connect_keyboard() {
 void MainWindow::go_to_area(int step) {
     std::vector<QWidget*> areas;
     QWidget* center = center_->currentWidget() == start_page_ ? static_cast<QWidget*>(start_page_) : view_;
-    for (QWidget* area : std::initializer_list<QWidget*>{center, mesh_panel_, tabs_, worst_table_, quality_panel_,
-                                 timeline_panel_})
+    for (QWidget* area :
+         std::initializer_list<QWidget*>{center, mesh_panel_, tabs_, worst_table_, quality_panel_, timeline_panel_})
         if (area->isVisible()) areas.push_back(area);
     const QWidget* now = focusWidget();
     const auto here = std::find_if(areas.begin(), areas.end(), [&](const QWidget* area) {

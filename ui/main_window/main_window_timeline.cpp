@@ -4,6 +4,7 @@
 #include <QDockWidget>
 #include <QFileInfo>
 #include <QStatusBar>
+#include <QTabBar>
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
@@ -29,9 +30,8 @@ void MainWindow::connect_timeline() {
     settled_.setInterval(150);
     connect(&settled_, &QTimer::timeout, this, &MainWindow::show_settled);
     connect(&player_, &StepPlayer::step_changed, &settled_, qOverload<>(&QTimer::start));
-    connect(&player_, &StepPlayer::failed, this, [this](const QString& message) {
-        dialogs_.show_error(this, tr("The recording cannot be read"), message);
-    });
+    connect(&player_, &StepPlayer::failed, this,
+            [this](const QString& message) { dialogs_.show_error(this, tr("The recording cannot be read"), message); });
     connect(view_, &MeshView::frame_begun, &player_, [this] { player_.hold_frames(true); });
     connect(view_, &MeshView::frame_drawn, &player_, [this] { player_.hold_frames(false); });
     connect(timeline_panel_, &TimelinePanel::close_requested, this, &MainWindow::close_timeline);
@@ -92,6 +92,7 @@ void MainWindow::open_timeline(const RecordedRun& run) {
     timeline_dock_->toggleViewAction()->setEnabled(true);
     timeline_dock_->show();
     timeline_dock_->raise();
+    for (QTabBar* bar : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) bar->setDrawBase(false);
     player_.open(run.recording);
     statusBar()->clearMessage();
     update_tool();
