@@ -326,8 +326,8 @@ class TimelineTest : public QObject {
         test.menu("break_clear");
         QVERIFY(test.player().breakpoints().is_empty());
         QVERIFY(!test.find<QAction>("break_crossing")->isChecked());
-        const auto began = std::get<untangle_event::PatchBegan>(
-            test.recording().read(test.recording().patches().back().first));
+        const auto began =
+            std::get<untangle_event::PatchBegan>(test.recording().read(test.recording().patches().back().first));
         test.window->edit().select_nodes({began.nodes.front()});
         test.menu("break_nodes");
         Breakpoints node;
@@ -475,10 +475,12 @@ class TimelineTest : public QObject {
         QTest::qWait(50);
         auto* panel = test.find<TimelinePanel>("timeline_panel");
         QVERIFY(panel->height() >= panel->minimumSizeHint().height());
-        QVERIFY2(panel->width() >= panel->minimumSizeHint().width(), qPrintable(QString::number(panel->minimumSizeHint().width())));
+        QVERIFY2(panel->width() >= panel->minimumSizeHint().width(),
+                 qPrintable(QString::number(panel->minimumSizeHint().width())));
         QVERIFY(test.window->height() <= 800 && test.window->width() <= 1280);
         for (const QWidget* child : panel->findChildren<QWidget*>())
-            if (child->isVisible() && child->parentWidget() == panel) QVERIFY(panel->rect().contains(child->geometry()));
+            if (child->isVisible() && child->parentWidget() == panel)
+                QVERIFY(panel->rect().contains(child->geometry()));
         auto* button = test.find<QPushButton>("step_by_step_button");
         QVERIFY(button->width() >= button->minimumSizeHint().width());
     }

@@ -91,7 +91,7 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
     QStringList applied = start.applied_deformations;
     if (applies_deformation) applied << document_.deformation()->file_path;
     auto work = [this, start, applied, step = std::move(step), then = std::move(then)](const TaskContext& context,
-                                                               const std::stop_token& keep) {
+                                                                                       const std::stop_token& keep) {
         // The step stops for either reason; what is done with its result is only stopped by cancelling.
         std::stop_source either;
         const auto stop = [&either] { either.request_stop(); };
@@ -108,8 +108,7 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
             result.action
                 ? std::move(*result.action)
                 : Action(place_action(start.mesh->topology(), start.mesh->coordinates(), state.mesh->coordinates()));
-        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action),
-                then] {
+        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action), then] {
             document_.apply(name, state, action, details);
             if (then) then();
             if (!text.isEmpty()) emit note(text);

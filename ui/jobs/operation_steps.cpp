@@ -113,8 +113,7 @@ Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded) {
 }
 
 Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const WarpOptions& options,
-               const std::optional<IncrementOptions>& increments, const TaskContext& context,
-               Recorder* recorder) {
+               const std::optional<IncrementOptions>& increments, const TaskContext& context, Recorder* recorder) {
     WarpOptions with_interfaces = options;
     with_interfaces.prescribed_nodes = prescribed_interior_nodes(mesh, *loaded.deformation);
     Step step;
@@ -133,8 +132,8 @@ Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const Wa
         }
         IncrementalResult result = warp_in_increments(mesh, path, with_interfaces, *increments, context, observer);
         if (recorder)
-            recorder->end_warp(result.coordinates, result.increments.is_complete() ? StopReason::converged
-                                                                                   : StopReason::no_progress);
+            recorder->end_warp(result.coordinates,
+                               result.increments.is_complete() ? StopReason::converged : StopReason::no_progress);
         fraction = result.increments.fraction;
         const QString way = describe_increments(result.increments, mesh.topology());
         if (fraction == 0.0)

@@ -18,7 +18,8 @@ class Recorder;
 QString by_file(const QString& deformation_path);
 
 Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded);
-/// At once or in increments; those are told to a recorder. Throws SolverFailure if no increment goes without tangled elements.
+/// At once or in increments; those are told to a recorder. Throws SolverFailure if no increment goes without tangled
+/// elements.
 Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const WarpOptions& options,
                const std::optional<IncrementOptions>& increments, const TaskContext& context,
                Recorder* recorder = nullptr);

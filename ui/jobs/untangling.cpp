@@ -82,7 +82,8 @@ Step run(const CurvedMesh& mesh, GuaranteedOptions options, UntangleObserver* ob
     return step;
 }
 
-Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, UntangleObserver* observer, const TaskContext& context) {
+Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, UntangleObserver* observer,
+         const TaskContext& context) {
     UntangleResult result = untangle_signed_angles(mesh, options, observer, context);
     Step step;
     const bool is_automatic = options.beta_choice == BetaChoice::automatic;
@@ -98,7 +99,8 @@ Step run(const CurvedMesh& mesh, const SignedAngleOptions& options, UntangleObse
     return step;
 }
 
-Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, UntangleObserver* observer, const TaskContext& context) {
+Step run(const CurvedMesh& mesh, const UnsignedAngleOptions& options, UntangleObserver* observer,
+         const TaskContext& context) {
     UntangleResult result = untangle_unsigned_angles(mesh, options, observer, context);
     Step step;
     step.name = tr("Untangle, unsigned angles");

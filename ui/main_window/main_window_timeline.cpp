@@ -5,6 +5,7 @@
 #include <QFileInfo>
 #include <QSplitter>
 #include <QStatusBar>
+#include <QTabBar>
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
@@ -109,6 +110,7 @@ void MainWindow::open_timeline(const RecordedRun& run) {
     // There is more to be said of a step than of the worst elements.
     sizes_before_timeline_ = right_splitter_->sizes();
     right_splitter_->setSizes({1000, 150});
+    for (QTabBar* bar : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) bar->setDrawBase(false);
     player_.open(run.recording);
     statusBar()->clearMessage();
     update_tool();

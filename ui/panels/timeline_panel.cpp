@@ -99,7 +99,7 @@ void TimelinePanel::make_transport() {
     speed_->setLocale(QLocale::c());
     speed_->setDecimals(1);
     speed_->setRange(StepPlayer::min_speed, StepPlayer::max_speed);
-    speed_->setSuffix(tr(" per s", "steps per second"));
+    speed_->setSuffix(tr("/s", "steps per second"));
     speed_->setToolTip(tr("Steps per second when playing; if the view is slower, steps are passed over"));
     const double speed = QSettings().value(QStringLiteral("timeline/speed"), player_.speed()).toDouble();
     player_.set_speed(speed);
@@ -118,12 +118,13 @@ void TimelinePanel::make_transport() {
 
     jump_ = new QToolButton;
     jump_->setObjectName(QStringLiteral("timeline_jump"));
-    jump_->setText(tr("Jump"));
+    jump_->setText(tr("Jump to"));
     jump_->setToolTip(tr("Go to the worst moment, or to where an element became valid"));
     jump_->setMenu(make_jump_menu());
     breaks_ = new QToolButton;
     breaks_->setObjectName(QStringLiteral("timeline_breakpoints"));
-    breaks_->setToolTip(tr("Where playing stops: at what happens to selected elements or nodes, or to min J"));
+    breaks_->setToolTip(
+        tr("Breakpoints, where playing stops: at what happens to selected elements or nodes, or to min J"));
     breaks_->setMenu(make_break_menu());
     for (QToolButton* button : {jump_, breaks_}) {
         button->setPopupMode(QToolButton::InstantPopup);
@@ -135,8 +136,7 @@ void TimelinePanel::make_transport() {
                                [this] { emit close_requested(); }));
     static_cast<QVBoxLayout*>(layout())->addLayout(line);
 
-    connect(level_, &QComboBox::currentIndexChanged, this,
-            [this] { player_.set_level(chosen<StepLevel>(level_)); });
+    connect(level_, &QComboBox::currentIndexChanged, this, [this] { player_.set_level(chosen<StepLevel>(level_)); });
     connect(speed_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
         player_.set_speed(value);
         QSettings().setValue(QStringLiteral("timeline/speed"), value);
@@ -169,7 +169,8 @@ QMenu* TimelinePanel::make_jump_menu() {
 
 QMenu* TimelinePanel::make_break_menu() {
     auto* menu = new QMenu(this);
-    QAction* elements = menu->addAction(tr("Selected &elements"), this, [this] { add_breakpoints(edit_.elements(), {}); });
+    QAction* elements =
+        menu->addAction(tr("Selected &elements"), this, [this] { add_breakpoints(edit_.elements(), {}); });
     elements->setObjectName(QStringLiteral("break_elements"));
     QAction* nodes = menu->addAction(tr("Selected &nodes"), this, [this] { add_breakpoints({}, edit_.nodes()); });
     nodes->setObjectName(QStringLiteral("break_nodes"));
@@ -246,7 +247,8 @@ QString TimelinePanel::place_text(const Recording& recording, StepNumber step) {
         const RecordedPatch& its = patches[*patch];
         const auto next = std::partition_point(patches.begin(), patches.end(),
                                                [&](const RecordedPatch& p) { return p.pass <= its.pass; });
-        text << of(tr("patch"), its.number, (next - 1)->number) << of(tr("step"), step - its.first, its.last - its.first);
+        text << of(tr("patch"), its.number, (next - 1)->number)
+             << of(tr("step"), step - its.first, its.last - its.first);
     } else {
         text << of(tr("step"), step, recording.step_count() - 1);
     }
@@ -264,20 +266,24 @@ void TimelinePanel::show_step() {
     place_->setToolTip(player_.recording()->is_complete()
                            ? place_->text()
                            : tr("%1\nThe recording ends early: there was no room for more steps.").arg(place_->text()));
-    const QualityPoint& point = player_.recording()->quality_at(shown.step);
-    quality_->setText(tr("min J %1, %2").arg(
-        format_number(point.min_scaled_jacobian),
-        point.not_valid == 0 ? tr("all valid") : tr("%1 tangled").arg(format_count(point.not_valid))));
-    set_tone(quality_, point.not_valid > 0 ? "alarm" : "good");
+    if (!shown.has_quality) return;  // it follows
+    const QualitySummary& summary = shown.quality.summary;
+    const Index not_valid = summary.invalid + summary.undecided;
+    quality_->setText(tr("min J %1, %2")
+                          .arg(format_number(summary.min), not_valid == 0 ? tr("all valid")
+                                                           : summary.invalid > 0
+                                                               ? tr("%1 tangled").arg(format_count(not_valid))
+                                                               : tr("%1 undecided").arg(format_count(not_valid))));
+    set_tone(quality_, summary.invalid > 0 ? "alarm" : not_valid > 0 ? "warning" : "good");
 }
 
 void TimelinePanel::show_breakpoints() {
     const Breakpoints& breakpoints = player_.breakpoints();
     crossing_->setChecked(breakpoints.min_crosses_zero);
-    breaks_->setText(breakpoints.is_empty() ? tr("Breakpoints")
-                                            : tr("Breakpoints: %1")
-                                                  .arg(format_count(static_cast<long long>(
-                                                      player_.break_steps().size()))));
+    breaks_->setText(breakpoints.is_empty()
+                         ? tr("Stop at")
+                         : tr("Stop at %1", "number of breakpoints")
+                               .arg(format_count(static_cast<long long>(player_.break_steps().size()))));
 }
 
 void TimelinePanel::keyPressEvent(QKeyEvent* event) {

@@ -178,7 +178,8 @@ void TimelineTrack::paint_patches(QPainter& painter) const {
     while (patch != patches.end() && patch->first < end) {
         const double left = x_of(patch->first) - 0.5 * unit, right = x_of(patch->last) + 0.5 * unit;
         if (right - left >= 2.0) {
-            paint_span(painter, {left, top, right - left, row_height - 1}, patch->number, QString::number(patch->number));
+            paint_span(painter, {left, top, right - left, row_height - 1}, patch->number,
+                       QString::number(patch->number));
             ++patch;
             continue;
         }
@@ -232,7 +233,8 @@ void TimelineTrack::paint_curves(QPainter& painter) const {
     for (double x = std::floor(area.left()); x <= area.right(); x += 1.0) {
         const double from = first_ + (x - area.left()) / unit, to = first_ + (x + 1.0 - area.left()) / unit;
         if (from > last_step()) break;
-        const StepNumber a = step_at(x), b = std::max(a, to >= last_step() ? last_step() : StepNumber(std::max(0.0, to)));
+        const StepNumber a = step_at(x),
+                         b = std::max(a, to >= last_step() ? last_step() : StepNumber(std::max(0.0, to)));
         const TimelineCurve::Range range = curve_.over(a, b);
         // Up and down within the column: the end that is nearer to the column before comes first.
         const auto order = [](const QPolygonF& line, double& one, double& other) {

@@ -85,7 +85,7 @@ Color MarkActors::color_of(MarkRole role, double share) const {
         case MarkRole::path:
             return ink_;
         case MarkRole::contour:
-            return mix(ink_, accent_, 0.35 + 0.65 * std::clamp(share, 0.0, 1.0));
+            return mix(ground_, accent_, 0.30 + 0.55 * std::clamp(share, 0.0, 1.0));
         case MarkRole::outcome:
             return {0.96, 0.66, 0.10};
         default:
