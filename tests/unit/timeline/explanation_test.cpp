@@ -155,7 +155,8 @@ TEST(PatchTrial, TheEnergysMinimumIsLowerThanItsSurroundings) {
         for (const double eps : {1e-2, 1.0}) {
             const PatchTrial::Outcome outcome = trial.outcome({.eps = eps});
             EXPECT_GT(outcome.path.size(), 1u);
-            EXPECT_NEAR(trial.value(outcome.position, {.eps = eps}), outcome.objective, 1e-9 * std::abs(outcome.objective));
+            EXPECT_NEAR(trial.value(outcome.position, {.eps = eps}), outcome.objective,
+                        1e-9 * std::abs(outcome.objective));
             for (int d = 0; d < run.mesh.topology().dimension(); ++d)
                 for (const double step : {-0.02, 0.02}) {
                     Eigen::RowVector3d aside = outcome.position;

@@ -19,10 +19,10 @@ TEST(TimelineSearch, StepsOfAllLevelsGoThereAndBack) {
         std::vector<StepNumber> way{0};
         while (way.back() < last) way.push_back(step_after(*recording, way.back(), level));
         EXPECT_EQ(step_after(*recording, last, level), last);
-        if (level == StepLevel::pass) EXPECT_EQ(way.size(), 1u + 3u + 1u);
-        if (level == StepLevel::patch)
-            EXPECT_EQ(way.size(), 2u + recording->patches().size() + 2u * recording->passes().size());
-        if (level == StepLevel::iteration) EXPECT_EQ(way.size(), recording->step_count());
+        const std::size_t expected = level == StepLevel::pass    ? 1u + 3u + 1u
+                                     : level == StepLevel::patch ? 2u + recording->patches().size() + 2u * 3u
+                                                                 : recording->step_count();
+        EXPECT_EQ(way.size(), expected);
         std::vector<StepNumber> back{last};
         while (back.back() > 0) back.push_back(step_before(*recording, back.back(), level));
         std::reverse(back.begin(), back.end());
@@ -39,8 +39,8 @@ TEST(TimelineSearch, FindsTheWorstStepAndWhenElementsBecameValid) {
         const StepNumber worst = worst_step(*recording);
         for (const QualityPoint& point : recording->quality_points()) {
             EXPECT_LE(point.not_valid, recording->quality_at(worst).not_valid);
-            if (point.not_valid == recording->quality_at(worst).not_valid)
-                EXPECT_GE(point.min_scaled_jacobian, recording->quality_at(worst).min_scaled_jacobian);
+            if (point.not_valid < recording->quality_at(worst).not_valid) continue;
+            EXPECT_GE(point.min_scaled_jacobian, recording->quality_at(worst).min_scaled_jacobian);
         }
         TimelineCursor cursor(recording);
         cursor.seek(last);
@@ -52,9 +52,10 @@ TEST(TimelineSearch, FindsTheWorstStepAndWhenElementsBecameValid) {
             cursor.seek(*since);
             EXPECT_EQ(cursor.quality().elements[element].validity, Validity::valid);
             cursor.seek(*since - 1);
-            if (recording->kind(*since) != StepKind::patch_certified &&
-                recording->kind(*since - 1) == StepKind::patch_began)
-                EXPECT_NE(cursor.quality().elements[element].validity, Validity::valid);
+            if (recording->kind(*since) == StepKind::patch_certified ||
+                recording->kind(*since - 1) != StepKind::patch_began)
+                continue;
+            EXPECT_NE(cursor.quality().elements[element].validity, Validity::valid);
         }
     }
 }
