@@ -1,5 +1,6 @@
 # What `cmake --install` puts where. Component "library": the static library, its headers and the CMake package
-# Curvewright (target Curvewright::core). Component "programs": the programs, their samples and the desktop entry.
+# Curvewright (target Curvewright::core). Component "cli": the command line. Component "desktop": the window, its samples, and
+# what a desktop wants to know of it.
 
 include(CMakePackageConfigHelpers)
 
@@ -25,16 +26,32 @@ install(FILES ${PROJECT_BINARY_DIR}/CurvewrightConfig.cmake ${PROJECT_BINARY_DIR
               cmake/FindMETIS.cmake cmake/FindWebP.cmake
         DESTINATION ${package_folder} COMPONENT library)
 
-install(TARGETS curvewright-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
+# Debian wants manual pages compressed, without a time in them.
+function(install_manual name component)
+    set(page ${PROJECT_BINARY_DIR}/man/${name}.1.gz)
+    find_program(GZIP_PROGRAM gzip REQUIRED)
+    file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/man)
+    configure_file(resources/man/${name}.1 ${PROJECT_BINARY_DIR}/man/${name}.1 COPYONLY)
+    execute_process(COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_BINARY_DIR}/man/${name}.1 OUTPUT_FILE ${page}
+                    COMMAND_ERROR_IS_FATAL ANY)
+    install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT ${component})
+endfunction()
+
+install(TARGETS curvewright-cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT cli)
+install_manual(curvewright-cli cli)
 if(CURVEWRIGHT_BUILD_DESKTOP)
-    install(TARGETS curvewright RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
-    install(FILES resources/curvewright.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT programs)
+    install(TARGETS curvewright RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT desktop)
+    install_manual(curvewright desktop)
+    install(FILES resources/curvewright.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications COMPONENT desktop)
+    install(FILES resources/curvewright-mime.xml RENAME curvewright.xml
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/mime/packages COMPONENT desktop)
     install(FILES resources/icons/curvewright.svg
-            DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT programs)
-    install(DIRECTORY sample_meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/curvewright COMPONENT programs)
+            DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps COMPONENT desktop)
+    install(DIRECTORY sample_meshes DESTINATION ${CMAKE_INSTALL_DATADIR}/curvewright COMPONENT desktop
+            PATTERN "*.py" EXCLUDE PATTERN "*.sh" EXCLUDE)
 endif()
 
-# Each component brings the license along.
-foreach(component library programs)
-    install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT ${component})
+# Each component brings the license along, where Debian looks for it.
+foreach(component library cli desktop)
+    install(FILES LICENSE RENAME copyright DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/curvewright COMPONENT ${component})
 endforeach()

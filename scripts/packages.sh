@@ -4,5 +4,7 @@
 run_packages=(g++ cmake ninja-build libvtk9-dev qt6-base-dev libqt6opengl6-dev qt6-svg-dev libeigen3-dev libtbb-dev libmetis-dev
               libfmt-dev libcli11-dev nlohmann-json3-dev libmuparser-dev zlib1g-dev libwebp-dev libegl-dev libgl1-mesa-dri
               qt6-qpa-plugins libqt6svg6 fonts-dejavu-core)
-# To test: the framework, and a display without a screen.
-test_packages=(libgtest-dev xvfb xauth)
+# To make packages.
+package_packages=(dpkg-dev file gzip)
+# To test: the framework, a display without a screen, and what makes packages.
+test_packages=(libgtest-dev xvfb xauth "${package_packages[@]}")

@@ -1,0 +1,12 @@
+# Read by cpack for each kind of package: which components go into it.
+
+set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
+if(CPACK_GENERATOR STREQUAL "DEB")
+    set(CPACK_DEB_COMPONENT_INSTALL ON)
+    set(CPACK_COMPONENTS_ALL cli desktop)
+    set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+else()
+    set(CPACK_ARCHIVE_COMPONENT_INSTALL ON)
+    set(CPACK_COMPONENTS_ALL cli)
+    set(CPACK_PACKAGE_FILE_NAME "curvewright-cli-${CPACK_PACKAGE_VERSION}-${CPACK_SYSTEM_NAME}")
+endif()
