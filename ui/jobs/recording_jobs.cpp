@@ -5,6 +5,7 @@
 #include <QFileInfo>
 
 #include "core/base/error.h"
+#include "core/io/atomic_file.h"
 #include "core/io/deformation_file.h"
 #include "core/timeline/recorder.h"
 #include "core/timeline/replay.h"
@@ -89,11 +90,13 @@ bool MeshJobs::open_trace(const QString& path) {
 
 bool MeshJobs::save_trace(const std::shared_ptr<const Recording>& recording, const QString& path) {
     return runner_.start(tr("Writing %1").arg(QFileInfo(path).fileName()), [=, this](const TaskContext& context) {
-        std::ofstream stream(to_path(path));
+        AtomicFile file(to_path(path));
+        std::ofstream stream(file.path());
         TraceWriter writer(stream);
         replay(recording, writer, context);
         stream.close();
         if (!stream) throw InvalidInput(tr("%1 cannot be written.").arg(path).toStdString());
+        file.commit();
         return [=, this] { emit note(tr("Wrote %1.").arg(path)); };
     });
 }
