@@ -10,6 +10,7 @@
 #include <vtkRenderer.h>
 
 #include "ui/main_window/mesh_view_parts.h"
+#include "ui/main_window/own_turn.h"
 #include "ui/main_window/picture_drawing.h"
 
 namespace curvewright {
@@ -146,7 +147,7 @@ void MeshView::schedule_frame_behind() {
     behind.is_scheduled = true;
     // A repaint now would have to be done again when the frame is there.
     hold_repaints(true);
-    QTimer::singleShot(0, this, &MeshView::begin_frame_behind);
+    call_in_own_turn(this, [this] { begin_frame_behind(); });
 }
 
 void MeshView::begin_frame_behind() {

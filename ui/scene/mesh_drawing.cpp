@@ -37,6 +37,9 @@ std::vector<float> select_points(const Tessellation& tessellation, bool on_bound
     return points;
 }
 
+/// Selected elements of a flat mesh that are outlined each on its own; of more, the regions that they make.
+constexpr std::size_t most_outlined_singly = 10000;
+
 /// Pieces per curved side of so many faces. Where they are many they are small on the screen, and the chord tolerance
 /// alone is enough: pieces are what a frame costs. Few are cut finer, so that they stay smooth when one comes close.
 int least_subdivisions(std::size_t faces) {
@@ -168,12 +171,16 @@ void MeshDrawing::make_highlight() {
             ++count;
         }
     if (count > 0) {
-        // Every element on its own, so that the sides between two of them are drawn as well.
+        // The sides between two of them are drawn as well, unless they are so many that nothing else would be seen.
         TessellationOptions its;
         its.min_subdivisions = least_subdivisions(count);
         const Tessellation outline(*mesh_, flags, its);
-        lines.points = outline.edge_points();
-        lines.offsets = outline.line_offsets();
+        if (count > most_outlined_singly && is_flat())
+            lines = select_lines(outline, std::vector<float>(outline.line_elements().size(), 0.0f), true);
+        if (lines.count() == 0) {  // all of a closed surface has no rim
+            lines.points = outline.edge_points();
+            lines.offsets = outline.line_offsets();
+        }
         origin = outline.origin();
         if (const PlaneCut* section = section_.cut())
             lines.add_section(*section, origin, [&](std::size_t line) {
