@@ -73,6 +73,7 @@ void MeshView::show_frame(const Coordinates& positions, const QualityReport* qua
         if (quality) late->quality = std::make_shared<const QualityReport>(*quality);
     }
     parts.scene.show_frame(positions, quality);
+    parts.behind.is_restless = true;
     request_frame();
 }
 

@@ -155,12 +155,20 @@ void TiledPicture::draw_tile() {
     emit progress(double(2 * parts.next + (parts.is_on_white ? 1 : 0)) / (2 * parts.count()));
     parts.graphics.make_current();
     const QPoint place = parts.place();
-    DeferringRenderWindow* window = parts.graphics.window();
     parts.scene.set_first_pixel(parts.factor * place.x() * parts.tile.width(),
                                 parts.factor * place.y() * parts.tile.height());
     const Color black{0.0, 0.0, 0.0}, white{1.0, 1.0, 1.0};
     const Color ground = !parts.options.is_transparent ? parts.shown.background : parts.is_on_white ? white : black;
     parts.scene.renderer()->SetBackground(ground[0], ground[1], ground[2]);
+    parts.graphics.done_current();
+    parts.scene.begin_parts();
+    draw_part();
+}
+
+void TiledPicture::draw_part() {
+    Parts& parts = *parts_;
+    parts.graphics.make_current();
+    DeferringRenderWindow* window = parts.graphics.window();
     vtkOpenGLState* state = window->GetState();
     state->Reset();
     state->Push();
@@ -189,7 +197,10 @@ void TiledPicture::poll_tile() {
     parts.graphics.done_current();
     if (answer == GL_TIMEOUT_EXPIRED) return;
     parts.poll.stop();
-    take_tile();
+    if (parts.scene.has_more_parts())
+        call_in_own_turn(this, [this] { draw_part(); });
+    else
+        take_tile();
 }
 
 void TiledPicture::take_tile() {
