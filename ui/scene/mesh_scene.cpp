@@ -165,7 +165,7 @@ void MeshScene::set_first_pixel(int x, int y) {
 }
 
 void MeshScene::begin_parts() {
-    parts_->renderer->begin_parts(most_points_of_part);
+    if (is_flat()) parts_->renderer->begin_parts(most_points_of_part);
 }
 
 void MeshScene::end_parts() {
