@@ -34,15 +34,19 @@ Eigen::RowVector3d CurvedMesh::element_center(Index element) const {
 }
 
 Eigen::Matrix<double, 2, 3> bounding_box(const CurvedMesh& mesh) {
-    Eigen::Matrix<double, 2, 3> box = Eigen::Matrix<double, 2, 3>::Zero();
-    bool is_first = true;
-    for (Index element = 0; element < mesh.topology().element_count(); ++element)
-        for (Index node : mesh.topology().element_nodes(element)) {
-            const auto x = mesh.coordinates().row(node);
-            box.row(0) = is_first ? Eigen::RowVector3d(x) : Eigen::RowVector3d(box.row(0).cwiseMin(x));
-            box.row(1) = is_first ? Eigen::RowVector3d(x) : Eigen::RowVector3d(box.row(1).cwiseMax(x));
-            is_first = false;
+    const MeshTopology& topology = mesh.topology();
+    if (topology.element_count() == 0) return Eigen::Matrix<double, 2, 3>::Zero();
+    const double* x = mesh.coordinates().data();
+    const Index first = *topology.element_nodes(0).begin();
+    Eigen::Array3d low = mesh.coordinates().row(first).transpose(), high = low;
+    for (Index element = 0; element < topology.element_count(); ++element)
+        for (const Index node : topology.element_nodes(element)) {
+            const Eigen::Map<const Eigen::Array3d> at(x + 3 * static_cast<std::ptrdiff_t>(node));
+            low = low.min(at);
+            high = high.max(at);
         }
+    Eigen::Matrix<double, 2, 3> box;
+    box << low.matrix().transpose(), high.matrix().transpose();
     return box;
 }
 

@@ -289,6 +289,27 @@ class LookingTest : public QObject {
             test.window->action(CommandId::shrink)->trigger();
             QVERIFY(wait());
             QVERIFY(differing(view.picture(1), usual) <= few);
+            // In parts it is the same picture, and so if something changes between two of them.
+            const QImage whole = view.grabFramebuffer();
+            const long long points = std::exchange(MeshScene::most_points_of_part, 1);
+            QAction* edges = test.window->action(CommandId::edges);
+            bool is_in_parts = false;
+            connect(
+                &view, &MeshView::frame_begun, &view, [&] { is_in_parts = view.scene().has_more_parts(); },
+                Qt::SingleShotConnection);
+            edges->trigger();
+            QVERIFY(wait());
+            QVERIFY(is_in_parts);
+            QVERIFY(view.grabFramebuffer() != whole);
+            edges->trigger();
+            QVERIFY(wait());
+            QVERIFY(view.grabFramebuffer() == whole);
+            connect(&view, &MeshView::frame_begun, edges, &QAction::trigger, Qt::SingleShotConnection);
+            edges->trigger();
+            QVERIFY(wait());
+            QVERIFY(edges->isChecked());
+            QVERIFY(view.grabFramebuffer() == whole);
+            MeshScene::most_points_of_part = points;
             // Closed before it was ready.
             test.click("tool_redo");
             test.document().mark_unchanged();

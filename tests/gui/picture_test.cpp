@@ -249,10 +249,12 @@ class PictureTest : public QObject {
             PictureOptions options{.size = size};
             options.is_transparent = is_transparent;
             const long long before = std::exchange(TiledPicture::tile_pixels, 100'000);
+            const long long points = std::exchange(MeshScene::most_points_of_part, 1);
             TiledPicture tiled(test.view(), options);
             QSignalSpy finished(&tiled, &TiledPicture::finished), progress(&tiled, &TiledPicture::progress);
             QVERIFY(finished.wait(20000));
             TiledPicture::tile_pixels = before;
+            MeshScene::most_points_of_part = points;
             QVERIFY2(progress.count() >= 9, qPrintable(QString::number(progress.count())));
             QImage image = finished[0][0].value<QImage>(), whole = test.view().picture(options);
             QCOMPARE(image.size(), size);

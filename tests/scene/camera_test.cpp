@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <vtkCallbackCommand.h>
@@ -15,6 +17,7 @@
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_meshes.h"
 #include "tests/scene/scene_window.h"
+#include "ui/scene/mesh_drawing.h"
 #include "ui/scene/mesh_scene.h"
 #include "ui/scene/offscreen.h"
 #include "ui/scene/view_metrics.h"
@@ -206,6 +209,30 @@ TEST(Scene, OutlineOfASolidElementIsWhole) {
             }
         }
     }
+}
+
+/// Of very many elements the region is outlined, not each of them.
+TEST(Scene, OutlineOfManyElementsIsThatOfTheirRegion) {
+    const CurvedMesh mesh = make_ring();
+    std::vector<Index> all;
+    for (Index element = 0; element < mesh.topology().element_count(); ++element) all.push_back(element);
+    const auto count_outline = [&](std::size_t most_outlined_singly) {
+        const std::size_t before = std::exchange(MeshDrawing::most_outlined_singly, most_outlined_singly);
+        MeshScene scene;
+        scene.set_mesh(&mesh, nullptr);
+        scene.set_highlighted_elements(all);
+        MeshDrawing::most_outlined_singly = before;
+        const auto file = temporary_picture("region");
+        render_png(scene, width, height, file);
+        const Image image = read_image(file);
+        int count = 0;
+        for (int y = 0; y < height; ++y)
+            for (int x = 0; x < width; ++x) count += image.pixel(x, y)[2] > image.pixel(x, y)[0] + 80 ? 1 : 0;
+        return count;
+    };
+    const int singly = count_outline(all.size()), region = count_outline(all.size() - 1);
+    EXPECT_GT(region, 500);
+    EXPECT_GT(2 * singly, 3 * region);
 }
 
 TEST(Picking, FocusBringsAnElementToTheMiddle) {

@@ -167,7 +167,9 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void render(bool waits);
     void schedule_frame_behind();
     void begin_frame_behind();
+    void draw_behind();
     void poll_frame_behind();
+    void continue_frame_behind();
     /// The picture that was drawn behind becomes the one that is shown; waits for it if it is not there.
     void finish_frame_behind();
     void abandon_frame_behind();

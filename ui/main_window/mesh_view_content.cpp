@@ -6,6 +6,7 @@
 #include <QMetaObject>
 
 #include "ui/main_window/mesh_view_parts.h"
+#include "ui/main_window/own_turn.h"
 
 namespace curvewright {
 namespace {
@@ -72,6 +73,7 @@ void MeshView::show_frame(const Coordinates& positions, const QualityReport* qua
         if (quality) late->quality = std::make_shared<const QualityReport>(*quality);
     }
     parts.scene.show_frame(positions, quality);
+    parts.behind.is_restless = true;
     request_frame();
 }
 
@@ -133,7 +135,7 @@ void MeshView::prepare() {
     if (!preparing.is_outdated && !preparing.work) preparing.explain.start(soon);
     if (std::exchange(preparing.is_outdated, true)) return;
     // Several changes often come together.
-    QMetaObject::invokeMethod(this, &MeshView::begin_preparation, Qt::QueuedConnection);
+    call_in_own_turn(this, [this] { begin_preparation(); });
 }
 
 void MeshView::begin_preparation() {
@@ -160,7 +162,7 @@ void MeshView::take_preparation(const std::shared_ptr<PreparationWork>& work) {
     if (work != parts.preparing.work || work->is_made) return;
     parts.preparing.thread.join();
     work->is_made = true;
-    upload_preparation();
+    call_in_own_turn(this, [this] { upload_preparation(); });
 }
 
 void MeshView::upload_preparation() {
@@ -182,7 +184,7 @@ void MeshView::upload_preparation() {
         const bool is_more_to_come = parts.scene.upload_next(preparing.work->preparation);
         doneCurrent();
         if (is_more_to_come) {
-            QTimer::singleShot(0, this, &MeshView::upload_preparation);
+            call_in_own_turn(this, [this] { upload_preparation(); });
             return;
         }
     }

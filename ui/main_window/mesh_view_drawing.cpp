@@ -10,6 +10,7 @@
 #include <vtkRenderer.h>
 
 #include "ui/main_window/mesh_view_parts.h"
+#include "ui/main_window/own_turn.h"
 #include "ui/main_window/picture_drawing.h"
 
 namespace curvewright {
@@ -37,6 +38,7 @@ void MeshView::release_graphics() {
     parts.behind.fence = nullptr;
     parts.behind.poll.stop();
     parts.behind.is_pending = parts.behind.is_finished = false;
+    parts.scene.end_parts();
     parts.behind.drawn_size = {};
     hold_repaints(false);
     parts.window->Finalize();
@@ -114,6 +116,7 @@ void MeshView::tell_drawn() {
     const qint64 took = parts.behind.clock.elapsed();
     parts.behind.is_slow = took > slow || (parts.behind.is_slow && took > quick);
     parts.behind.drawn_size = device_size();
+    if (!parts.is_stale) parts.behind.is_restless = false;
     emit frame_drawn();
     const CameraPose pose = CameraPose::of(parts.scene.renderer()->GetActiveCamera());
     if (!(pose == parts.told_pose)) {
@@ -146,7 +149,7 @@ void MeshView::schedule_frame_behind() {
     behind.is_scheduled = true;
     // A repaint now would have to be done again when the frame is there.
     hold_repaints(true);
-    QTimer::singleShot(0, this, &MeshView::begin_frame_behind);
+    call_in_own_turn(this, [this] { begin_frame_behind(); });
 }
 
 void MeshView::begin_frame_behind() {
@@ -160,8 +163,18 @@ void MeshView::begin_frame_behind() {
         update();
         return;
     }
-    makeCurrent();
     behind.clock.start();
+    if (is_large() && !behind.is_restless) parts.scene.begin_parts();
+    draw_behind();
+    emit frame_begun();
+}
+
+/// All of a frame, or the next part of it.
+void MeshView::draw_behind() {
+    Parts& parts = *parts_;
+    FrameBehind& behind = parts.behind;
+    makeCurrent();
+    if (behind.fence) parts.gl->glDeleteSync(behind.fence);
     render(false);
     behind.fence = parts.gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     parts.gl->glFlush();
@@ -169,7 +182,6 @@ void MeshView::begin_frame_behind() {
     behind.is_pending = true;
     constexpr int interval = 3;  // milliseconds
     behind.poll.start(interval);
-    emit frame_begun();
 }
 
 void MeshView::poll_frame_behind() {
@@ -182,10 +194,25 @@ void MeshView::poll_frame_behind() {
         if (state == GL_TIMEOUT_EXPIRED) return;
     }
     behind.poll.stop();
+    if (behind.is_pending && parts.scene.has_more_parts()) {
+        call_in_own_turn(this, [this] { continue_frame_behind(); });
+        return;
+    }
     behind.is_finished = behind.is_pending;
     behind.is_pending = false;
     hold_repaints(false);
     update();
+}
+
+void MeshView::continue_frame_behind() {
+    Parts& parts = *parts_;
+    if (!parts.behind.is_pending || !parts.scene.has_more_parts()) return;
+    if (parts.is_stale) {
+        // What has changed meanwhile would be in some of its parts only.
+        parts.scene.end_parts();
+        parts.behind.is_restless = true;
+    }
+    draw_behind();
 }
 
 void MeshView::finish_frame_behind() {
@@ -197,6 +224,11 @@ void MeshView::finish_frame_behind() {
     behind.is_pending = behind.is_finished = false;
     if (behind.fence) parts.gl->glDeleteSync(behind.fence);
     behind.fence = nullptr;
+    if (parts.scene.has_more_parts()) {
+        parts.scene.end_parts();
+        render(true);
+        return tell_drawn();
+    }
     vtkOpenGLState* state = parts.window->GetState();
     state->Reset();
     state->Push();
@@ -207,6 +239,7 @@ void MeshView::finish_frame_behind() {
 
 void MeshView::abandon_frame_behind() {
     FrameBehind& behind = parts_->behind;
+    parts_->scene.end_parts();
     hold_repaints(false);
     behind.poll.stop();
     behind.is_pending = behind.is_finished = false;

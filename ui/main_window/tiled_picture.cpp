@@ -16,6 +16,7 @@
 
 #include "ui/main_window/mesh_view.h"
 #include "ui/main_window/offscreen_graphics.h"
+#include "ui/main_window/own_turn.h"
 #include "ui/scene/camera_control.h"
 #include "ui/scene/picture_pixels.h"
 #include "ui/scene/scene_preparation.h"
@@ -121,7 +122,7 @@ void TiledPicture::upload() {
     parts.graphics.make_current();
     const bool is_more_to_come = parts.scene.upload_next(*parts.preparation);
     parts.graphics.done_current();
-    QTimer::singleShot(0, this, is_more_to_come ? &TiledPicture::upload : &TiledPicture::begin);
+    call_in_own_turn(this, [this, is_more_to_come] { is_more_to_come ? upload() : begin(); });
 }
 
 void TiledPicture::begin() {
@@ -146,7 +147,7 @@ void TiledPicture::begin() {
     if (parts.image.isNull())
         end({});
     else
-        QTimer::singleShot(0, this, &TiledPicture::draw_tile);
+        call_in_own_turn(this, [this] { draw_tile(); });
 }
 
 void TiledPicture::draw_tile() {
@@ -154,12 +155,20 @@ void TiledPicture::draw_tile() {
     emit progress(double(2 * parts.next + (parts.is_on_white ? 1 : 0)) / (2 * parts.count()));
     parts.graphics.make_current();
     const QPoint place = parts.place();
-    DeferringRenderWindow* window = parts.graphics.window();
     parts.scene.set_first_pixel(parts.factor * place.x() * parts.tile.width(),
                                 parts.factor * place.y() * parts.tile.height());
     const Color black{0.0, 0.0, 0.0}, white{1.0, 1.0, 1.0};
     const Color ground = !parts.options.is_transparent ? parts.shown.background : parts.is_on_white ? white : black;
     parts.scene.renderer()->SetBackground(ground[0], ground[1], ground[2]);
+    parts.graphics.done_current();
+    parts.scene.begin_parts();
+    draw_part();
+}
+
+void TiledPicture::draw_part() {
+    Parts& parts = *parts_;
+    parts.graphics.make_current();
+    DeferringRenderWindow* window = parts.graphics.window();
     vtkOpenGLState* state = window->GetState();
     state->Reset();
     state->Push();
@@ -188,7 +197,10 @@ void TiledPicture::poll_tile() {
     parts.graphics.done_current();
     if (answer == GL_TIMEOUT_EXPIRED) return;
     parts.poll.stop();
-    take_tile();
+    if (parts.scene.has_more_parts())
+        call_in_own_turn(this, [this] { draw_part(); });
+    else
+        take_tile();
 }
 
 void TiledPicture::take_tile() {
@@ -209,7 +221,7 @@ void TiledPicture::take_tile() {
     if (parts.options.is_transparent && !parts.is_on_white) {
         parts.on_black.assign(pixels, pixels + bytes->GetNumberOfValues());
         parts.is_on_white = true;
-        QTimer::singleShot(0, this, &TiledPicture::draw_tile);
+        call_in_own_turn(this, [this] { draw_tile(); });
         return;
     }
     parts.is_on_white = false;
@@ -225,7 +237,7 @@ void TiledPicture::take_tile() {
         std::copy_n(tile.bytes.data() + std::ptrdiff_t(row) * tile.width * tile.channels, columns * tile.channels,
                     parts.image.scanLine(parts.image.height() - 1 - bottom - row) + left * tile.channels);
     if (++parts.next < parts.count())
-        QTimer::singleShot(0, this, &TiledPicture::draw_tile);
+        call_in_own_turn(this, [this] { draw_tile(); });
     else
         end(parts.image);
 }

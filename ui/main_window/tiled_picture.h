@@ -35,6 +35,7 @@ class TiledPicture : public QObject {
     void upload();
     void begin();
     void draw_tile();
+    void draw_part();
     void poll_tile();
     void take_tile();
     void end(const QImage& image);

@@ -11,11 +11,29 @@
 namespace curvewright {
 namespace {
 
-/// The lines of a tessellation that are (or are not) on the boundary of a flat mesh.
-Polylines select_lines(const Tessellation& tessellation, const std::vector<float>& spacing, bool on_boundary) {
+/// Some of the lines of a tessellation.
+struct LineRange {
+    std::size_t begin = 0, end = 0;
+};
+
+LineRange all_lines(const Tessellation& tessellation) {
+    return {0, tessellation.line_elements().size()};
+}
+
+/// What one of several actors draws of them; few are all the first one's.
+LineRange part_of_lines(const Tessellation& tessellation, std::size_t part, std::size_t parts) {
+    constexpr std::size_t few = 20000;
+    const std::size_t count = tessellation.line_elements().size();
+    const std::size_t each = std::max(few, (count + parts - 1) / parts);
+    return {std::min(count, part * each), std::min(count, (part + 1) * each)};
+}
+
+/// The lines that are (or are not) on the boundary of a flat mesh.
+Polylines select_lines(const Tessellation& tessellation, LineRange range, const std::vector<float>& spacing,
+                       bool on_boundary) {
     Polylines lines;
     const auto& offsets = tessellation.line_offsets();
-    for (std::size_t line = 0; line + 1 < offsets.size(); ++line) {
+    for (std::size_t line = range.begin; line < range.end; ++line) {
         if ((tessellation.line_is_boundary()[line] != 0) != on_boundary) continue;
         const auto begin = tessellation.edge_points().begin();
         lines.points.insert(lines.points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
@@ -26,12 +44,12 @@ Polylines select_lines(const Tessellation& tessellation, const std::vector<float
 }
 
 /// Their points alone, in the same order.
-std::vector<float> select_points(const Tessellation& tessellation, bool on_boundary) {
+std::vector<float> select_points(const Tessellation& tessellation, LineRange range, bool on_boundary) {
     std::vector<float> points;
-    points.reserve(tessellation.edge_points().size());
     const auto& offsets = tessellation.line_offsets();
+    points.reserve(3 * static_cast<std::size_t>(offsets[range.end] - offsets[range.begin]));
     const auto begin = tessellation.edge_points().begin();
-    for (std::size_t line = 0; line + 1 < offsets.size(); ++line)
+    for (std::size_t line = range.begin; line < range.end; ++line)
         if ((tessellation.line_is_boundary()[line] != 0) == on_boundary)
             points.insert(points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
     return points;
@@ -60,8 +78,9 @@ MeshDrawing::MeshDrawing(std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr
 }
 
 std::vector<vtkActor*> MeshDrawing::actors() const {
-    std::vector<vtkActor*> actors{surface_.actor(), section_.actors()[0], edges_.actor(), boundary_.actor(),
-                                  section_.actors()[1]};
+    std::vector<vtkActor*> actors{surface_.actor(), section_.actors()[0]};
+    for (const StrokeActor& edges : edges_) actors.push_back(edges.actor());
+    for (vtkActor* actor : {boundary_.actor(), section_.actors()[1]}) actors.push_back(actor);
     for (vtkActor* actor : marks_.actors()) actors.push_back(actor);
     for (vtkActor* actor : {nodes_.others(), nodes_.corners(), highlight_halo_.actor(), highlight_.actor()})
         actors.push_back(actor);
@@ -105,9 +124,12 @@ void MeshDrawing::make(bool may_move) {
     frame_.place(surface_.actor(), tessellation_->origin());
     const std::vector<float> spacing = line_spacing(*mesh_, *tessellation_);
     typical_spacing_ = median(spacing) / frame_.size;
-    edges_.set_lines(select_lines(*tessellation_, spacing, false), 1.0 / frame_.size);
-    boundary_.set_lines(select_lines(*tessellation_, spacing, true), 1.0 / frame_.size);
-    frame_.place(edges_.actor(), tessellation_->origin());
+    for (std::size_t i = 0; i < edges_.size(); ++i) {
+        const LineRange range = part_of_lines(*tessellation_, i, edges_.size());
+        edges_[i].set_lines(select_lines(*tessellation_, range, spacing, false), 1.0 / frame_.size);
+        frame_.place(edges_[i].actor(), tessellation_->origin());
+    }
+    boundary_.set_lines(select_lines(*tessellation_, all_lines(*tessellation_), spacing, true), 1.0 / frame_.size);
     frame_.place(boundary_.actor(), tessellation_->origin());
     nodes_.set_nodes(*mesh_, *tessellation_, frame_);
     make_cut();
@@ -146,7 +168,7 @@ void MeshDrawing::find_section(const CuttingPlane& plane) {
 void MeshDrawing::draw_section() {
     const std::optional<CuttingPlane> plane = cutting_plane();
     surface_.set_cut(plane, tessellation_->origin(), frame_.size);
-    edges_.set_cut(plane, tessellation_->origin(), frame_.size);
+    for (StrokeActor& edges : edges_) edges.set_cut(plane, tessellation_->origin(), frame_.size);
     nodes_.set_cut(plane, tessellation_->origin(), frame_.size);
     section_.draw(*mesh_, painter, frame_);
     section_.show_edges(options.show_edges);
@@ -168,12 +190,16 @@ void MeshDrawing::make_highlight() {
             ++count;
         }
     if (count > 0) {
-        // Every element on its own, so that the sides between two of them are drawn as well.
+        // The sides between two of them are drawn as well, unless they are so many that nothing else would be seen.
         TessellationOptions its;
         its.min_subdivisions = least_subdivisions(count);
         const Tessellation outline(*mesh_, flags, its);
-        lines.points = outline.edge_points();
-        lines.offsets = outline.line_offsets();
+        if (count > most_outlined_singly && is_flat())
+            lines = select_lines(outline, all_lines(outline), std::vector<float>(outline.line_elements().size()), true);
+        if (lines.count() == 0) {  // all of a closed surface has no rim
+            lines.points = outline.edge_points();
+            lines.offsets = outline.line_offsets();
+        }
         origin = outline.origin();
         if (const PlaneCut* section = section_.cut())
             lines.add_section(*section, origin, [&](std::size_t line) {
@@ -190,10 +216,10 @@ void MeshDrawing::make_highlight() {
 void MeshDrawing::apply_styles() {
     const StrokeStyle edge_style{
         .color = options.edge_color, .opacity = 0.75, .width = 1.1, .depth_bias = 4e-4, .fades = true};
-    edges_.set_style(edge_style);
+    for (StrokeActor& edges : edges_) edges.set_style(edge_style);
     section_.set_edge_style(edge_style);
     boundary_.set_style({.color = options.edge_color, .width = 1.6, .depth_bias = 5e-4});
-    edges_.actor()->SetVisibility(options.show_edges && tessellation_);
+    show_edges(options.show_edges);
     section_.show_edges(options.show_edges);
     boundary_.actor()->SetVisibility(tessellation_ && is_flat());
     highlight_halo_.set_style({.color = options.background, .width = 6.5, .cap = 1.0, .is_on_top = true});
@@ -201,6 +227,10 @@ void MeshDrawing::apply_styles() {
     highlight_.set_style({.color = options.accent, .width = 3.0, .cap = 1.0, .depth_bias = 0.011, .is_on_top = true});
     nodes_.set_colors(options.edge_color, options.background, options.edge_color);
     nodes_.set_visible(options.show_nodes && tessellation_);
+}
+
+void MeshDrawing::show_edges(bool is_wanted) {
+    for (StrokeActor& edges : edges_) edges.actor()->SetVisibility(is_wanted && !edges.is_empty());
 }
 
 bool MeshDrawing::move(const Coordinates& positions, std::shared_ptr<const QualityReport> quality,
@@ -223,12 +253,13 @@ bool MeshDrawing::move(const Coordinates& positions, std::shared_ptr<const Quali
     constexpr std::size_t many_lines = 20000;
     const bool are_too_many = tessellation_->line_elements().size() > many_lines &&
                               typical_spacing_ * pixels_per_unit < seen_spacing * options.pixel_ratio;
-    edges_.actor()->SetVisibility(options.show_edges && !are_too_many);
+    show_edges(options.show_edges && !are_too_many);
     if (has_moved) surface_.set_surface(*tessellation_, false);
     const bool is_quality = painter.coloring().source == Coloring::Source::scaled_jacobian;
     if ((has_moved && painter.follows_motion()) || (has_new_quality && is_quality)) paint();
-    if (has_moved && !are_too_many) edges_.move_lines(select_points(*tessellation_, false));
-    if (has_moved) boundary_.move_lines(select_points(*tessellation_, true));
+    for (std::size_t i = 0; has_moved && !are_too_many && i < edges_.size(); ++i)
+        edges_[i].move_lines(select_points(*tessellation_, part_of_lines(*tessellation_, i, edges_.size()), false));
+    if (has_moved) boundary_.move_lines(select_points(*tessellation_, all_lines(*tessellation_), true));
     if (has_moved && options.show_nodes) nodes_.set_nodes(*mesh_, *tessellation_, frame_);
     // The section follows in every frame if that is quick, else in a part of the time, and with every new report.
     const auto now = std::chrono::steady_clock::now();
@@ -271,7 +302,8 @@ std::vector<NumberLabel> MeshDrawing::number_labels() const {
 void MeshDrawing::update(const ViewMetrics& view, double focal_distance) {
     surface_.update(view);
     section_.update(view);
-    for (StrokeActor* stroke : {&edges_, &boundary_, &highlight_halo_, &highlight_}) stroke->update(view);
+    for (StrokeActor& edges : edges_) edges.update(view);
+    for (StrokeActor* stroke : {&boundary_, &highlight_halo_, &highlight_}) stroke->update(view);
     nodes_.update(view, typical_spacing_, focal_distance);
     marks_.update(view);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -38,6 +39,8 @@ class MeshDrawing {
     SceneOptions options;
     SurfacePainter painter;
     std::vector<Index> highlighted;
+    /// So many of a flat mesh are outlined each on its own; of more, the regions that they make.
+    static inline std::size_t most_outlined_singly = 10000;
 
     bool has_mesh() const { return mesh_ != nullptr; }
     bool is_flat() const { return !mesh_ || mesh_->topology().dimension() < 3; }
@@ -82,6 +85,7 @@ class MeshDrawing {
     void move_pieces();
     void find_section(const CuttingPlane& plane);
     void draw_section();
+    void show_edges(bool is_wanted);
 
     std::shared_ptr<const CurvedMesh> mesh_;
     std::shared_ptr<const QualityReport> quality_;
@@ -94,7 +98,9 @@ class MeshDrawing {
 
     SurfaceActor surface_;
     SectionDrawing section_;
-    StrokeActor edges_, boundary_;
+    /// Several, so that none takes long to hand to the graphics or to draw.
+    std::array<StrokeActor, 6> edges_;
+    StrokeActor boundary_;
     TangledMarks marks_;
     NodeActors nodes_;
     StrokeActor highlight_halo_, highlight_;

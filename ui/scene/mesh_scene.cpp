@@ -131,6 +131,7 @@ struct MeshScene::Parts {
     }
 
     void prepare_frame() {
+        if (renderer->has_more_parts()) return;  // was prepared with the first
         const double ratio = options().pixel_ratio;
         axes.set_visible(has_mesh() && !drawing->is_flat());
         camera.set_right_margin(legend.width(ratio));
@@ -161,6 +162,18 @@ vtkRenderer* MeshScene::renderer() const {
 
 void MeshScene::set_first_pixel(int x, int y) {
     parts_->renderer->set_first_pixel(x, y);
+}
+
+void MeshScene::begin_parts() {
+    if (is_flat()) parts_->renderer->begin_parts(most_points_of_part);
+}
+
+void MeshScene::end_parts() {
+    parts_->renderer->end_parts();
+}
+
+bool MeshScene::has_more_parts() const {
+    return parts_->renderer->has_more_parts();
 }
 
 void MeshScene::set_mesh(const CurvedMesh* mesh, const QualityReport* quality) {

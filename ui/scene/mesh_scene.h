@@ -41,6 +41,13 @@ class MeshScene {
     /// Draws the part of the picture that begins there: see TileRenderer.
     void set_first_pixel(int x, int y);
 
+    /// The next frame is drawn in parts, one per Render() of the window; that of a solid is not. Whoever changes anything before the last one
+    /// has to end_parts(), and then the next frame is a whole one.
+    void begin_parts();
+    static inline long long most_points_of_part = 250'000;  ///< of what is drawn
+    void end_parts();
+    bool has_more_parts() const;
+
     /// Shows a mesh (none = empty). quality may be null (neutral colours) or must be the report of this very mesh.
     /// The camera stays, unless the topology is another one than before: then the view is reset.
     void set_mesh(const CurvedMesh* mesh, const QualityReport* quality);

@@ -42,9 +42,10 @@ void NodeActors::color_points() {
 }
 
 void NodeActors::set_colors(const Color& boundary, const Color& interior, const Color& rim) {
+    for (PointActor& set : sets_) set.set_rim(rim);
+    if (boundary == boundary_ && interior == interior_) return;
     boundary_ = boundary;
     interior_ = interior;
-    for (PointActor& set : sets_) set.set_rim(rim);
     color_points();
 }
 

@@ -81,9 +81,11 @@ void PointActor::set_points(const std::vector<float>& points, const Eigen::RowVe
 void PointActor::set_colors(const std::vector<Color>& colors) {
     vtkNew<vtkUnsignedCharArray> bytes;
     bytes->SetNumberOfComponents(3);
+    bytes->SetNumberOfTuples(static_cast<vtkIdType>(colors.size()));
+    unsigned char* at = bytes->GetPointer(0);
     for (const Color& color : colors)
         for (double channel : color)
-            bytes->InsertNextValue(static_cast<unsigned char>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0))));
+            *at++ = static_cast<unsigned char>(std::lround(255.0 * std::clamp(channel, 0.0, 1.0)));
     data_->GetPointData()->SetScalars(bytes);
     data_->Modified();
 }

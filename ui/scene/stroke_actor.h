@@ -58,6 +58,7 @@ class StrokeActor {
     StrokeActor& operator=(const StrokeActor&) = delete;
 
     vtkActor* actor() const { return actor_; }
+    bool is_empty() const { return offsets_.back() == 0; }
     /// length_unit: size of the unit of the points in the world (or 1 for pixels).
     void set_lines(const Polylines& lines, double length_unit);
     void clear() { set_lines({}, 1.0); }
