@@ -139,6 +139,11 @@ void MainWindow::close_timeline() {
 
 void MainWindow::show_settled() {
     if (!player_.is_open() || player_.is_seeking()) return;
+    // A new state would end the flight to a patch on its way.
+    if (view_->is_flying()) {
+        settled_.start();
+        return;
+    }
     const auto& shown = player_.shown();
     MeshState state;
     state.mesh = std::make_shared<const CurvedMesh>(player_.recording()->mesh().with_coordinates(shown.coordinates));

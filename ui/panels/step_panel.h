@@ -51,7 +51,7 @@ class StepPanel : public QWidget {
     struct Parameter;
 
     void ask();
-    void show_parameter(const UntangleOptions& options);
+    void show_parameter(const Recording& recording, const UntangleOptions& options);
     void describe(const Recording& recording);
     double parameter_value() const;
 
