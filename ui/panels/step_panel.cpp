@@ -203,8 +203,9 @@ void StepPanel::show_parameter(const Recording& recording, const UntangleOptions
 
 void StepPanel::show_step(const Recording& recording, std::shared_ptr<const StepExplanation> step,
                           std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr<const CurvedMesh> start,
-                          double orientation_sign, const UntangleOptions& options, const Eigen::RowVector3d& across,
-                          const Eigen::RowVector3d& up) {
+                          const QualitySummary& quality, double orientation_sign, const UntangleOptions& options,
+                          const Eigen::RowVector3d& across, const Eigen::RowVector3d& up) {
+    quality_ = quality;
     const auto patch = recording.patch_of(step->step);
     request_.step = std::move(step);
     request_.mesh = std::move(mesh);
@@ -364,7 +365,7 @@ void StepPanel::describe(const Recording& recording) {
             break;
         }
     }
-    const QualityPoint& point = recording.quality_at(step.step);
+    const QualityPoint point{step.step, static_cast<float>(quality_.min), quality_.invalid + quality_.undecided};
     if (step.method) {
         numbers << tr("worst of the patch: element %1, scaled Jacobian %2")
                        .arg(element_tag(step.worst_element), format_number(step.worst_scaled_jacobian));
