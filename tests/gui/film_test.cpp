@@ -330,7 +330,8 @@ class FilmTest : public QObject {
         const QRect corner(0, 170, 200, 30);
         for (int i = 0; i < 3; ++i) {
             const Frame frame = frames.make(i, {});
-            QCOMPARE(frame.caption, step_caption(*test.recording(), frames.steps()[static_cast<std::size_t>(i)]));
+            const StepNumber step = frames.steps()[static_cast<std::size_t>(i)];
+            QCOMPARE(frame.caption, step_caption(*test.recording(), step, frame.quality->summary));
             const QImage plain = test.picture_of(frame);
             QVERIFY(test.picture(i + 1).copy(corner) != plain.copy(corner));
             QCOMPARE(test.picture(i + 1).copy(0, 0, 320, 160), plain.copy(0, 0, 320, 160));
