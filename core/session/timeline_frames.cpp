@@ -28,11 +28,11 @@ Frame TimelineFrames::make(int index, const TaskContext& context) {
     const StepNumber step = steps_[static_cast<std::size_t>(index)];
     cursor_.seek(step, context);
     return {cursor_.recording().mesh().with_coordinates(cursor_.coordinates()), cursor_.quality(),
-            step_caption(cursor_.recording(), step),
+            step_caption(cursor_.recording(), step, cursor_.quality().summary),
             cursor_.patch() ? cursor_.patch()->elements : std::vector<Index>()};
 }
 
-std::string step_caption(const Recording& recording, StepNumber step) {
+std::string step_caption(const Recording& recording, StepNumber step, const QualitySummary& quality) {
     std::string caption;
     const auto add = [&](const std::string& part) { caption += (caption.empty() ? "" : " \u00b7 ") + part; };
     const auto pass = recording.pass_of(step), patch = recording.patch_of(step);
@@ -43,10 +43,9 @@ std::string step_caption(const Recording& recording, StepNumber step) {
         add(fmt::format("step {}", step - recording.patches()[*patch].first));
     }
     if (step + 1 == recording.step_count()) add("end");
-    const QualityPoint& point = recording.quality_at(step);
-    add(point.not_valid == 0 ? std::string("all valid") : fmt::format("{} not valid", point.not_valid));
-    add(fmt::format("min {}{:.3g}", point.min_scaled_jacobian < 0 ? "\u2212" : "",
-                    std::abs(point.min_scaled_jacobian)));
+    const Index not_valid = quality.invalid + quality.undecided;
+    add(not_valid == 0 ? std::string("all valid") : fmt::format("{} not valid", not_valid));
+    add(fmt::format("min {}{:.3g}", quality.min < 0 ? "\u2212" : "", std::abs(quality.min)));
     return caption;
 }
 

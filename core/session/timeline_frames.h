@@ -27,7 +27,8 @@ class TimelineFrames : public FrameSource {
     std::vector<StepNumber> steps_;
 };
 
-/// "pass 2 · patch 14 · step 9 · 3 tangled · min −0.031": where a step is and how the mesh is there.
-std::string step_caption(const Recording& recording, StepNumber step);
+/// "pass 2 · patch 14 · step 9 · 3 not valid · min −0.031": where a step is and how the mesh is there. quality: of the
+/// mesh in the step, within a patch with its nodes where that step has them.
+std::string step_caption(const Recording& recording, StepNumber step, const QualitySummary& quality);
 
 }  // namespace curvewright

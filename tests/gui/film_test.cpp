@@ -15,6 +15,7 @@
 #include <QSpinBox>
 
 #include "core/io/atomic_file.h"
+#include "core/session/timeline_frames.h"
 #include "tests/gui/gui_test_support.h"
 #include "tests/support/decoded_animation.h"
 #include "ui/jobs/film.h"
@@ -81,6 +82,31 @@ struct FilmUnderTest : WindowUnderTest {
     QImage picture_of(const MeshState& state, bool is_transparent = false) {
         PictureStudio studio(window->view());
         return studio.draw(*state.mesh, state.quality.get(), {.size = {320, 200}, .is_transparent = is_transparent})
+            .convertToFormat(QImage::Format_RGBA8888);
+    }
+};
+
+/// Of a window with the timeline of an untangling.
+struct TimelineFilmUnderTest : FilmUnderTest {
+    TimelineFilmUnderTest() {
+        unsaved_answer = UnsavedAnswer::discard;  // of the motion that is no timeline
+        open(inputs.path(QStringLiteral("square.msh")), inputs.path(QStringLiteral("bump.json")));
+        if (!window->jobs().deform() || !wait_for_job()) qFatal("The boundary was not deformed.");
+        if (!window->jobs().untangle_recorded(SignedAngleOptions{.beta = 0.3, .max_passes = 3}) || !wait_for_job())
+            qFatal("Nothing was recorded.");
+        QTest::qWait(300);  // the step has settled
+    }
+    const std::shared_ptr<const Recording>& recording() { return window->player().recording(); }
+    void choose_level(StepLevel level) {
+        auto* box = find<QComboBox>("film_level");
+        box->setCurrentIndex(box->findData(static_cast<int>(level)));
+    }
+    using FilmUnderTest::picture_of;
+    QImage picture_of(const Frame& frame, bool is_highlighted = true) {
+        PictureStudio studio(window->view());
+        return studio
+            .draw(frame.mesh, &*frame.quality, {.size = {320, 200}},
+                  is_highlighted ? frame.highlighted : std::vector<Index>())
             .convertToFormat(QImage::Format_RGBA8888);
     }
 };
@@ -255,6 +281,107 @@ class FilmTest : public QObject {
         test.write();
         QCOMPARE(test.errors.size(), 1);
         QVERIFY2(test.errors[0].contains(QStringLiteral("way.webp")), qPrintable(test.errors[0]));
+    }
+
+    void the_steps_of_the_timeline() {
+        TimelineFilmUnderTest test;
+        const auto recording = test.recording();
+        test.show_dialog(6);
+        auto* from = test.find<QComboBox>("film_from");
+        QCOMPARE(from->currentText(), QStringLiteral("The steps of the timeline"));
+        QVERIFY(from->count() > 1 && test.find<QComboBox>("film_level")->isVisible());
+        for (const StepLevel level : {StepLevel::pass, StepLevel::patch, StepLevel::iteration}) {
+            test.choose_level(level);
+            TimelineFrames frames(recording, level, 6, 0, recording->step_count() - 1);
+            QVERIFY(test.text("film_duration").startsWith(QStringLiteral("%1 pictures").arg(frames.count())));
+            test.write();
+            QVERIFY2(test.errors.isEmpty(), qPrintable(test.errors.join(QLatin1Char('\n'))));
+            QCOMPARE(test.files().size(), frames.count());
+            int outlined = 0;
+            for (int i = 0; i < frames.count(); ++i) {
+                const Frame frame = frames.make(i, {});
+                QCOMPARE(test.picture(i + 1), test.picture_of(frame));
+                if (frame.highlighted.empty()) continue;
+                ++outlined;
+                QVERIFY(test.picture(i + 1) != test.picture_of(frame, false));
+            }
+            QCOMPARE(outlined > 0, level != StepLevel::pass);
+        }
+        QCOMPARE(count_steps(*recording, StepLevel::iteration), static_cast<int>(recording->step_count()));
+        // As an animation it is the same, and the timeline stays where it was.
+        test.choose_animation(true);
+        test.write();
+        const DecodedAnimation film = test.decoded();
+        QCOMPARE(film.frames.size(), std::size_t{6});
+        for (int i = 0; i < 6; ++i)
+            QCOMPARE(FilmUnderTest::image_of(film, static_cast<std::size_t>(i)), test.picture(i + 1));
+        QCOMPARE(test.window->player().recording(), recording);
+        QCOMPARE(test.window->player().step(), 0u);
+        QCOMPARE(test.document().history()->index(), 2);
+    }
+
+    void captions_tell_where_the_timeline_is() {
+        TimelineFilmUnderTest test;
+        test.show_dialog(3);
+        test.choose_level(StepLevel::iteration);
+        test.find<QCheckBox>("film_caption")->setChecked(true);
+        test.write();
+        TimelineFrames frames(test.recording(), StepLevel::iteration, 3, 0, test.recording()->step_count() - 1);
+        const QRect corner(0, 170, 200, 30);
+        for (int i = 0; i < 3; ++i) {
+            const Frame frame = frames.make(i, {});
+            const StepNumber step = frames.steps()[static_cast<std::size_t>(i)];
+            QCOMPARE(frame.caption, step_caption(*test.recording(), step, frame.quality->summary));
+            const QImage plain = test.picture_of(frame);
+            QVERIFY(test.picture(i + 1).copy(corner) != plain.copy(corner));
+            QCOMPARE(test.picture(i + 1).copy(0, 0, 320, 160), plain.copy(0, 0, 320, 160));
+        }
+    }
+
+    void a_timeline_that_is_closed_is_no_longer_offered() {
+        TimelineFilmUnderTest test;
+        test.show_dialog(3);
+        test.window->action(CommandId::timeline_close)->trigger();
+        auto* from = test.find<QComboBox>("film_from");
+        QCOMPARE(from->currentText(), QStringLiteral("The mesh as opened"));
+        QVERIFY(!test.find<QComboBox>("film_level")->isVisible());
+        QVERIFY(test.find<QSpinBox>("film_frames")->prefix().isEmpty());
+        test.write();
+        QVERIFY(test.errors.isEmpty());
+        QCOMPARE(test.picture(1), test.picture_of(test.document().original()));
+        QCOMPARE(test.picture(3), test.picture_of(test.document().state()));
+        // Of the history on request while a timeline is open.
+        test.window->action(CommandId::timeline_show)->trigger();
+        QVERIFY(test.wait_for_job());
+        QCOMPARE(from->currentText(), QStringLiteral("The steps of the timeline"));
+        from->setCurrentIndex(1);
+        test.write();
+        QCOMPARE(test.picture(3), test.picture_of(test.document().state()));
+    }
+
+    void a_trace_alone_can_be_filmed() {
+        TimelineFilmUnderTest test;
+        test.file_answer = test.folder.filePath(QStringLiteral("run.jsonl"));
+        test.window->action(CommandId::timeline_save)->trigger();
+        QVERIFY(test.wait_for_job());
+        test.unsaved_answer = UnsavedAnswer::discard;
+        test.open(test.inputs.path(QStringLiteral("square.msh")));
+        QVERIFY(!test.window->action(CommandId::export_film)->isEnabled());
+        test.window->action(CommandId::timeline_open)->trigger();
+        QVERIFY(test.wait_for_job() && test.errors.isEmpty());
+        QVERIFY(test.window->action(CommandId::export_film)->isEnabled());
+        QTest::qWait(300);
+        test.show_dialog(4);
+        QCOMPARE(test.find<QComboBox>("film_from")->count(), 1);
+        test.choose_level(StepLevel::patch);
+        test.write();
+        QVERIFY(test.errors.isEmpty());
+        TimelineFrames frames(test.recording(), StepLevel::patch, 4, 0, test.recording()->step_count() - 1);
+        for (int i = 0; i < 4; ++i) QCOMPARE(test.picture(i + 1), test.picture_of(frames.make(i, {})));
+        // Without it there is nothing to be shown.
+        test.window->action(CommandId::timeline_close)->trigger();
+        QTRY_VERIFY(!test.window->findChild<FilmDialog*>());
+        QVERIFY(!test.window->action(CommandId::export_film)->isEnabled());
     }
 
     void sizes_are_even() {

@@ -1,5 +1,8 @@
 #include "ui/jobs/film.h"
 
+#include <algorithm>
+#include <utility>
+
 #include <QCoreApplication>
 #include <QDir>
 #include <QFile>
@@ -7,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/io/deformation_file.h"
+#include "core/session/timeline_frames.h"
 #include "ui/document/number_format.h"
 #include "ui/jobs/in_window.h"
 #include "ui/jobs/mesh_state.h"
@@ -113,6 +117,10 @@ QString animation_path(const QString& folder, const QString& prefix) {
     return QDir(folder).filePath(prefix + QStringLiteral(".webp"));
 }
 
+int pictures_of(int frames, bool goes_back) {
+    return goes_back ? std::max(1, 2 * (frames - 1)) : frames;
+}
+
 JobRunner::Work film_work(QObject* window, FilmRequest request) {
     return [window, request = std::move(request)](const TaskContext& context) -> JobRunner::Finish {
         const std::unique_ptr<FrameSource> source = request.source({context.stop, {}});
@@ -120,7 +128,7 @@ JobRunner::Work film_work(QObject* window, FilmRequest request) {
             throw InvalidInput(request.folder.toStdString(), 0,
                                tr("this folder cannot be made; choose another one.").toStdString());
         FilmResult result;
-        result.pictures = request.goes_back ? 2 * (source->count() - 1) : source->count();
+        result.pictures = pictures_of(source->count(), request.goes_back);
         if (request.animation)
             result.bytes = write_animation(window, request, *source, result.pictures, context);
         else
@@ -168,6 +176,19 @@ std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_history(
         for (const std::string& caption : lost) frames->add_straightened(caption);
         return frames;
     };
+}
+
+std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_timeline(
+    std::shared_ptr<const Recording> recording, StepLevel level, int count) {
+    return [recording = std::move(recording), level, count](const TaskContext&) -> std::unique_ptr<FrameSource> {
+        return std::make_unique<TimelineFrames>(recording, level, count, 0, recording->step_count() - 1);
+    };
+}
+
+int count_steps(const Recording& recording, StepLevel level) {
+    int count = 1;
+    for (StepNumber step = 0; step + 1 < recording.step_count(); step = step_after(recording, step, level)) ++count;
+    return count;
 }
 
 }  // namespace curvewright

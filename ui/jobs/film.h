@@ -11,6 +11,7 @@
 
 #include "core/io/animation_file.h"
 #include "core/session/frames.h"
+#include "core/timeline/search.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/job_runner.h"
 
@@ -37,6 +38,8 @@ struct FilmRequest {
     std::function<void(const FilmResult&)> then;
 };
 
+/// How many pictures a film of so many frames has.
+int pictures_of(int frames, bool goes_back);
 /// Path of a picture; number: from 1.
 QString film_file(const QString& folder, const QString& prefix, int number);
 /// Path of an animation.
@@ -54,5 +57,12 @@ JobRunner::Work film_work(QObject* window, FilmRequest request);
 /// history()->index(), count >= 2.
 std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_history(const MeshDocument& document, int from,
                                                                                 int count);
+
+/// The steps of a timeline: all of a level or, if there are more, as many of them as `count` in even distances. pre:
+/// count >= 2.
+std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_timeline(
+    std::shared_ptr<const Recording> recording, StepLevel level, int count);
+/// How many steps of a level there are, the first one and the last one included.
+int count_steps(const Recording& recording, StepLevel level);
 
 }  // namespace curvewright

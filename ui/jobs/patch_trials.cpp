@@ -38,7 +38,12 @@ double half_side(const TrialRequest& request, const PatchTrial::Outcome& outcome
 
 TrialResult PatchTrials::answer(const TrialRequest& request, const TaskContext& context) {
     const StepExplanation& step = *request.step;
-    PatchTrial trial(*request.mesh, request.orientation_sign, *step.method, request.options, step.elements, *step.focus,
+    UntangleOptions options = request.options;
+    // A trace does not tell them, but only with a weight of its own for every edge are several nodes a patch.
+    if (*step.method == UntangleMethod::signed_angles && !std::holds_alternative<SignedAngleOptions>(options) &&
+        step.nodes.size() > 1)
+        options = SignedAngleOptions{.beta_choice = BetaChoice::automatic};
+    PatchTrial trial(*request.mesh, request.orientation_sign, *step.method, options, step.elements, *step.focus,
                      row(step.focus_start), request.start->coordinates());
     TrialResult result;
     result.parameters = request.parameters;

@@ -16,6 +16,7 @@
 #include <QPointer>
 #include <QPushButton>
 #include <QSettings>
+#include <QSignalBlocker>
 #include <QSpinBox>
 #include <QStandardPaths>
 #include <QUndoStack>
@@ -53,6 +54,9 @@ QCheckBox* make_check(const char* object_name, const QString& text, const QStrin
     return box;
 }
 
+/// What stands for the timeline among the states of the history that a film can begin with.
+constexpr int of_timeline = -1;
+
 /// "gear" of gear.msh and of gear.msh.gz.
 QString stem_of(QString file_name) {
     if (file_name.endsWith(QLatin1String(".gz"))) file_name.chop(3);
@@ -88,9 +92,9 @@ QString video_command(const QString& folder, const QString& prefix, int per_seco
     return line;
 }
 
-FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(const QString&)> choose_folder,
-                       QWidget* parent)
-    : QDialog(parent), jobs_(jobs), view_(view) {
+FilmDialog::FilmDialog(MeshJobs& jobs, StepPlayer& player, MeshView& view,
+                       std::function<QString(const QString&)> choose_folder, QWidget* parent)
+    : QDialog(parent), jobs_(jobs), player_(player), view_(view) {
     setObjectName(QStringLiteral("film_dialog"));
     setWindowTitle(tr("Export an animation"));
     setAttribute(Qt::WA_DeleteOnClose);
@@ -102,13 +106,15 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
 
     from_ = new QComboBox;
     from_->setObjectName(QStringLiteral("film_from"));
-    const int index = document.history()->index();
-    from_->addItem(tr("The mesh as opened"), 0);
-    if (index > 1) from_->addItem(tr("Before the last step (%1)").arg(document.history()->text(index - 1)), index - 1);
     from_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
     from_->setMinimumContentsLength(24);
+    level_ = make_choice("film_level", tr("How far it is from one picture to the next."),
+                         {{tr("by pass"), static_cast<int>(StepLevel::pass), tr("the mesh after every pass.")},
+                          {tr("by patch"), static_cast<int>(StepLevel::patch), tr("the mesh after every patch.")},
+                          {tr("by iteration"), static_cast<int>(StepLevel::iteration),
+                           tr("every step of every patch, with the patch in focus outlined.")}});
+    level_->setCurrentIndex(level_->findData(saved("level", static_cast<int>(player.level())).toInt()));
     frames_ = make_count("film_frames", 2, 2000, saved("frames", 60).toInt());
-    frames_->setToolTip(tr("Pictures from the first state to the last"));
     per_second_ = make_count("film_per_second", 1, 120, saved("per_second", 30).toInt());
     per_second_->setSuffix(tr(" per second"));
     duration_ = make_label(QString(), "muted");
@@ -159,7 +165,7 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         row->addWidget(second);
         form->addRow(label, row);
     };
-    form->addRow(tr("From"), from_);
+    add_pair(tr("From"), from_, level_);
     auto* kind = new QHBoxLayout;
     kind->setSpacing(8);
     kind->addWidget(format_, 1);
@@ -218,7 +224,8 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
     layout->addWidget(buttons);
     setMinimumWidth(520);
 
-    connect(format_, &QComboBox::currentIndexChanged, this, &FilmDialog::change);
+    for (QComboBox* box : {from_, level_, format_})
+        connect(box, &QComboBox::currentIndexChanged, this, &FilmDialog::change);
     connect(lossless_, &QCheckBox::toggled, this, &FilmDialog::change);
     for (QSpinBox* box : {frames_, per_second_}) connect(box, &QSpinBox::valueChanged, this, &FilmDialog::change);
     for (QCheckBox* box : {back_, transparent_}) connect(box, &QCheckBox::toggled, this, &FilmDialog::change);
@@ -240,6 +247,7 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         if (was_writing_) {
             is_writing_ = false;
             studio_.reset();
+            fill_sources();
         }
         refresh();
     });
@@ -257,6 +265,9 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         // The present state is the end of the film.
         QDialog::reject();
     });
+    connect(&player, &StepPlayer::opened_changed, this, [this] {
+        if (!is_writing_) fill_sources();
+    });
     connect(&ffmpeg_, &QProcess::finished, this, [this](int status, QProcess::ExitStatus how) {
         refresh();
         if (how == QProcess::NormalExit && status == 0) {
@@ -272,7 +283,34 @@ FilmDialog::FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(con
         refresh();
         show_message(tr("ffmpeg could not be started: %1.").arg(ffmpeg_.errorString()), "warning");
     });
+    fill_sources();
     change();
+}
+
+/// Where the film can begin: with the timeline if one is open.
+void FilmDialog::fill_sources() {
+    if (player_.recording() == filled_recording_ && from_->count() > 0) return;
+    filled_recording_ = player_.recording();
+    const QSignalBlocker blocker(from_);
+    from_->clear();
+    if (filled_recording_) from_->addItem(tr("The steps of the timeline"), of_timeline);
+    const QUndoStack& history = *jobs_.document().history();
+    const int index = history.index();
+    if (index > 0) from_->addItem(tr("The mesh as opened"), 0);
+    if (index > 1) from_->addItem(tr("Before the last step (%1)").arg(history.text(index - 1)), index - 1);
+    if (from_->count() == 0)
+        QDialog::reject();
+    else
+        change();
+}
+
+bool FilmDialog::shows_timeline() const {
+    return from_->currentData() == of_timeline;
+}
+
+int FilmDialog::frame_count() const {
+    if (!shows_timeline() || !filled_recording_) return frames_->value();
+    return std::min(frames_->value(), count_steps(*filled_recording_, chosen<StepLevel>(level_)));
 }
 
 FilmDialog::~FilmDialog() {
@@ -322,9 +360,15 @@ QString FilmDialog::why_not() const {
 
 void FilmDialog::refresh() {
     const bool makes_video = ffmpeg_.state() != QProcess::NotRunning;
-    const int count = back_->isChecked() ? 2 * (frames_->value() - 1) : frames_->value();
+    const int count = pictures_of(frame_count(), back_->isChecked());
     duration_->setText(tr("%1 pictures, %2 s")
                            .arg(format_count(count), QString::number(double(count) / per_second_->value(), 'f', 1)));
+    level_->setVisible(shows_timeline());
+    frames_->setPrefix(shows_timeline() ? tr("at most ") : QString());
+    frames_->setToolTip(shows_timeline()
+                            ? tr("If there are more steps, so many of them in even distances, the first and the last "
+                                 "among them")
+                            : tr("Pictures from the first state to the last"));
     for (QWidget* field : {static_cast<QWidget*>(quality_), static_cast<QWidget*>(lossless_)})
         field->setVisible(is_animation());
     quality_->setEnabled(!lossless_->isChecked());
@@ -372,7 +416,9 @@ void FilmDialog::start() {
     const Color& ground = view_.options().background;
     caption_ground_ = QColor::fromRgbF(float(ground[0]), float(ground[1]), float(ground[2]), 0.75f);
     FilmRequest request;
-    request.source = film_of_history(jobs_.document(), from_->currentData().toInt(), frames_->value());
+    request.source = shows_timeline()
+                         ? film_of_timeline(filled_recording_, chosen<StepLevel>(level_), frames_->value())
+                         : film_of_history(jobs_.document(), from_->currentData().toInt(), frames_->value());
     request.goes_back = back_->isChecked();
     request.folder = QDir(folder_->text()).absolutePath();
     request.prefix = prefix_->text();
@@ -392,7 +438,7 @@ void FilmDialog::start() {
 
 QImage FilmDialog::draw(const Frame& frame) {
     if (!studio_) return {};
-    QImage image = studio_->draw(frame.mesh, frame.quality ? &*frame.quality : nullptr, drawn_);
+    QImage image = studio_->draw(frame.mesh, frame.quality ? &*frame.quality : nullptr, drawn_, frame.highlighted);
     if (image.isNull() || !has_caption_) return image;
     const double unit =
         std::min(double(image.width()) / view_.width(), double(image.height()) / view_.height()) * drawn_.line_scale;
@@ -445,6 +491,7 @@ void FilmDialog::remember() const {
     size_->remember();
     QSettings settings;
     settings.setValue(setting("frames"), frames_->value());
+    if (shows_timeline()) settings.setValue(setting("level"), level_->currentData());
     settings.setValue(setting("per_second"), per_second_->value());
     settings.setValue(setting("animated"), is_animation());
     settings.setValue(setting("quality"), quality_->value());

@@ -7,6 +7,7 @@
 #include <QProcess>
 
 #include "ui/jobs/mesh_jobs.h"
+#include "ui/jobs/step_player.h"
 #include "ui/main_window/picture_drawing.h"
 
 class QCheckBox;
@@ -29,14 +30,15 @@ QString video_command(const QString& folder, const QString& prefix, int per_seco
 QStringList video_arguments(const QString& folder, const QString& prefix, int per_second, bool is_transparent,
                             QString& video);
 
-/// File > Export animation: the way of the mesh to its present state as pictures for a video or as an animation, drawn
-/// from where the view is. The window stays usable beside it.
+/// File > Export animation: the way of the mesh to its present state, or the steps of the timeline, as pictures for a
+/// video or as an animation, drawn from where the view is. The window stays usable beside it.
 class FilmDialog : public QDialog {
     Q_OBJECT
 
   public:
     /// choose_folder: asks for a folder, beginning with one; "" = the user gave up.
-    FilmDialog(MeshJobs& jobs, MeshView& view, std::function<QString(const QString&)> choose_folder, QWidget* parent);
+    FilmDialog(MeshJobs& jobs, StepPlayer& player, MeshView& view, std::function<QString(const QString&)> choose_folder,
+               QWidget* parent);
     /// A running export is stopped.
     ~FilmDialog() override;
 
@@ -46,6 +48,9 @@ class FilmDialog : public QDialog {
     void failed(const QString& message);
 
   private:
+    void fill_sources();
+    bool shows_timeline() const;
+    int frame_count() const;
     void change();
     void refresh();
     void start();
@@ -59,15 +64,17 @@ class FilmDialog : public QDialog {
     void remember() const;
 
     MeshJobs& jobs_;
+    StepPlayer& player_;
     MeshView& view_;
     std::unique_ptr<PictureStudio> studio_;  ///< while a film is written
     PictureOptions drawn_;
+    std::shared_ptr<const Recording> filled_recording_;  ///< that can be chosen; null: none
     bool has_caption_ = false, is_writing_ = false, was_writing_ = false;
     QColor caption_color_, caption_ground_;
     QProcess ffmpeg_;
     QString video_;
 
-    QComboBox *from_ = nullptr, *format_ = nullptr;
+    QComboBox *from_ = nullptr, *level_ = nullptr, *format_ = nullptr;
     QSpinBox *frames_ = nullptr, *per_second_ = nullptr, *quality_ = nullptr;
     QCheckBox *back_ = nullptr, *transparent_ = nullptr, *lossless_ = nullptr, *legend_ = nullptr, *caption_ = nullptr;
     QLabel *duration_ = nullptr, *message_ = nullptr;

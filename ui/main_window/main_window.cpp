@@ -286,7 +286,8 @@ void MainWindow::update_commands() {
     for (const CommandId id : {CommandId::worst_only, CommandId::export_quality})
         actions_[id]->setEnabled(has_mesh && document_.state().quality);
     actions_[CommandId::bookmark_add]->setEnabled(has_mesh);
-    actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh && document_.history()->index() > 0);
+    actions_[CommandId::export_film]->setEnabled(is_idle && has_mesh &&
+                                                 (document_.history()->index() > 0 || player_.is_open()));
     actions_[CommandId::report]->setEnabled(is_idle && last_untangling(document_));
     actions_[CommandId::undo]->setEnabled(is_idle && document_.history()->canUndo());
     actions_[CommandId::redo]->setEnabled(is_idle && document_.history()->canRedo());

@@ -139,6 +139,11 @@ void MainWindow::close_timeline() {
 
 void MainWindow::show_settled() {
     if (!player_.is_open() || player_.is_seeking()) return;
+    // A new state would end the flight to a patch on its way.
+    if (view_->is_flying()) {
+        settled_.start();
+        return;
+    }
     const auto& shown = player_.shown();
     MeshState state;
     state.mesh = std::make_shared<const CurvedMesh>(player_.recording()->mesh().with_coordinates(shown.coordinates));
@@ -154,8 +159,9 @@ void MainWindow::explain_step() {
     const Eigen::Matrix3d axes = view_->view_axes();
     step_panel_->show_step(*recording, shown.explanation,
                            std::make_shared<const CurvedMesh>(recording->mesh().with_coordinates(shown.coordinates)),
-                           {recording, &recording->mesh()}, recording->start_quality().orientation_sign,
-                           options_of_run_, axes.col(0).transpose(), axes.col(1).transpose());
+                           {recording, &recording->mesh()}, shown.quality.summary,
+                           recording->start_quality().orientation_sign, options_of_run_, axes.col(0).transpose(),
+                           axes.col(1).transpose());
     step_tool_->show_step(shown.explanation, shown.coordinates);
     step_tool_->refresh();
     const auto patch = recording->patch_of(shown.step);

@@ -110,13 +110,13 @@ void MainWindow::go_to_bookmark(int number) {
 }
 
 void MainWindow::ask_export_film() {
-    if (!document_.has_mesh() || document_.history()->index() == 0 || is_busy()) return;
+    if (!actions_[CommandId::export_film]->isEnabled() || is_busy()) return;
     if (auto* open = findChild<FilmDialog*>()) {
         open->activateWindow();
         return;
     }
     auto* dialog = new FilmDialog(
-        jobs_, *view_,
+        jobs_, player_, *view_,
         [this](const QString& folder) { return dialogs_.choose_folder(this, tr("Folder for the pictures"), folder); },
         this);
     dialog->show();

@@ -185,6 +185,10 @@ bool MeshView::draws_element(Index element) const {
     return parts_->scene.draws_element(element);
 }
 
+bool MeshView::is_flying() const {
+    return parts_->flight.state() == QVariantAnimation::Running;
+}
+
 void MeshView::fly_to(Index element) {
     fly([this, element] { parts_->scene.focus_element(element); });
 }

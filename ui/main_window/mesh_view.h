@@ -92,6 +92,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     /// Where the camera is, and moving it to where one was within 200 ms. They belong to a mesh that is shown.
     ViewPose pose() const;
     void fly_to(const ViewPose& pose);
+    bool is_flying() const;
     /// Moves the camera so that a ball fills the view; radius 0: a little of the mesh around the point.
     void fit_to(const Eigen::RowVector3d& center, double radius);
 

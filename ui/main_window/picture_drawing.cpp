@@ -163,10 +163,12 @@ PictureStudio::PictureStudio(const MeshView& view) : parts_(std::make_unique<Par
 
 PictureStudio::~PictureStudio() = default;
 
-QImage PictureStudio::draw(const CurvedMesh& mesh, const QualityReport* quality, const PictureOptions& options) {
+QImage PictureStudio::draw(const CurvedMesh& mesh, const QualityReport* quality, const PictureOptions& options,
+                           const std::vector<Index>& highlighted) {
     Parts& parts = *parts_;
     if (!parts.graphics.make_current()) return {};
     parts.scene.set_mesh(&mesh, quality);
+    parts.scene.set_highlighted_elements(highlighted);
     const QImage image = draw_picture(parts.scene, parts.graphics.window(), parts.options, parts.shown_size, options,
                                       parts.graphics.largest_side());
     parts.graphics.done_current();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include <QImage>
 #include <QSize>
@@ -51,8 +52,10 @@ class PictureStudio {
     explicit PictureStudio(const MeshView& view);
     ~PictureStudio();
 
-    /// Null if the graphics fail. quality: may be null, as in MeshScene::set_mesh. pre: as for draw_picture.
-    QImage draw(const CurvedMesh& mesh, const QualityReport* quality, const PictureOptions& options);
+    /// Null if the graphics fail. quality: may be null, as in MeshScene::set_mesh. highlighted: elements with an outline.
+    /// pre: as for draw_picture.
+    QImage draw(const CurvedMesh& mesh, const QualityReport* quality, const PictureOptions& options,
+                const std::vector<Index>& highlighted = {});
 
   private:
     struct Parts;

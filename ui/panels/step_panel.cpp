@@ -31,13 +31,13 @@ struct TriedParameter {
 TriedParameter tried_parameter(UntangleMethod method) {
     switch (method) {
         case UntangleMethod::signed_angles:
-            return {1e-5, 1.0, 0.5};
+            return {1e-6, 1.0, 0.5};  // the automatic choice goes down to 3e-6
         case UntangleMethod::unsigned_angles:
             return {1e-4, 1.0, 0.01};
         case UntangleMethod::guaranteed:
             return {1e-4, 10.0, 1e-2};
     }
-    return {1e-5, 1.0, 0.5};
+    return {1e-6, 1.0, 0.5};
 }
 
 QString angle_text(double radians) {
@@ -89,7 +89,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
            "diamond shows where the method would take the node. The timeline stays as it is."));
     number_ = new LogSpinBox;
     number_->setObjectName(QStringLiteral("trial_number"));
-    number_->setDecimals(6);
+    number_->setDecimals(16);  // four digits are shown, but a weight that was found has all of them
     number_->setToolTip(slider_->toolTip());
     number_->setKeyboardTracking(false);
     row->addWidget(parameter_name_);
@@ -176,14 +176,15 @@ double StepPanel::parameter_value() const {
     return number_->value();
 }
 
-void StepPanel::show_parameter(const UntangleOptions& options) {
+void StepPanel::show_parameter(const Recording& recording, const UntangleOptions& options) {
     const UntangleMethod method = *request_.step->method;
     const auto [lower, upper, usual] = tried_parameter(method);
     double value = usual;
     if (method == UntangleMethod::signed_angles) {
-        // What the patch was done with, where the end tells; else what was given.
+        // What the patch was done with, which its end tells; else what was given.
         if (const auto* given = std::get_if<SignedAngleOptions>(&options)) value = given->beta;
-        if (request_.step->end && request_.step->end->beta > 0.0) value = request_.step->end->beta;
+        const StepEvent last = recording.read(recording.patches()[*shown_patch_].last);
+        if (const auto* end = std::get_if<event::PatchEnded>(&last); end && end->beta > 0.0) value = end->beta;
         parameter_name_->setText(tr("β"));
     } else if (method == UntangleMethod::unsigned_angles) {
         if (const auto* given = std::get_if<UnsignedAngleOptions>(&options))
@@ -202,8 +203,9 @@ void StepPanel::show_parameter(const UntangleOptions& options) {
 
 void StepPanel::show_step(const Recording& recording, std::shared_ptr<const StepExplanation> step,
                           std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr<const CurvedMesh> start,
-                          double orientation_sign, const UntangleOptions& options, const Eigen::RowVector3d& across,
-                          const Eigen::RowVector3d& up) {
+                          const QualitySummary& quality, double orientation_sign, const UntangleOptions& options,
+                          const Eigen::RowVector3d& across, const Eigen::RowVector3d& up) {
+    quality_ = quality;
     const auto patch = recording.patch_of(step->step);
     request_.step = std::move(step);
     request_.mesh = std::move(mesh);
@@ -229,7 +231,7 @@ void StepPanel::show_step(const Recording& recording, std::shared_ptr<const Step
     if (patch != shown_patch_ || request_.step->method != shown_method_) {
         shown_method_ = request_.step->method;
         shown_patch_ = patch;
-        show_parameter(options);
+        show_parameter(recording, options);
     }
     if (trial_ && trial_->focus != *request_.step->focus) trial_.reset();
     ask();
@@ -363,7 +365,7 @@ void StepPanel::describe(const Recording& recording) {
             break;
         }
     }
-    const QualityPoint& point = recording.quality_at(step.step);
+    const QualityPoint point{step.step, static_cast<float>(quality_.min), quality_.invalid + quality_.undecided};
     if (step.method) {
         numbers << tr("worst of the patch: element %1, scaled Jacobian %2")
                        .arg(element_tag(step.worst_element), format_number(step.worst_scaled_jacobian));

@@ -26,12 +26,12 @@ class StepPanel : public QWidget {
     explicit StepPanel(const Theme& theme, QWidget* parent = nullptr);
     ~StepPanel() override;
 
-    /// What is shown. mesh: positions in the step; start: of the untangling. across, up: of the view, for landscapes of
+    /// What is shown. mesh, quality: in the step; start: of the untangling. across, up: of the view, for landscapes of
     /// solids.
     void show_step(const Recording& recording, std::shared_ptr<const StepExplanation> step,
                    std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr<const CurvedMesh> start,
-                   double orientation_sign, const UntangleOptions& options, const Eigen::RowVector3d& across,
-                   const Eigen::RowVector3d& up);
+                   const QualitySummary& quality, double orientation_sign, const UntangleOptions& options,
+                   const Eigen::RowVector3d& across, const Eigen::RowVector3d& up);
     void clear();
 
     /// Null if there is none (yet).
@@ -51,7 +51,7 @@ class StepPanel : public QWidget {
     struct Parameter;
 
     void ask();
-    void show_parameter(const UntangleOptions& options);
+    void show_parameter(const Recording& recording, const UntangleOptions& options);
     void describe(const Recording& recording);
     double parameter_value() const;
 
@@ -64,6 +64,7 @@ class StepPanel : public QWidget {
     QCheckBox *contours_ = nullptr, *follows_ = nullptr;
     PatchTrials trials_;
     TrialRequest request_;
+    QualitySummary quality_;
     std::shared_ptr<const TrialResult> trial_;
     std::optional<UntangleMethod> shown_method_;
     std::optional<std::size_t> shown_patch_;

@@ -1,5 +1,8 @@
 #include "core/session/timeline_frames.h"
 
+#include <cmath>
+
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "core/base/error.h"
@@ -36,6 +39,23 @@ TEST(TimelineFrames, AreTheStepsOfTheRecording) {
     EXPECT_EQ(part.make(1, {}).highlighted.size(), 2u);  // the triangles at an edge
     EXPECT_THROW(TimelineFrames(recording, StepLevel::pass, 0, 5, 4), InvalidInput);
     EXPECT_THROW(TimelineFrames(recording, StepLevel::pass, 0, 0, last + 1), InvalidInput);
+}
+
+TEST(TimelineFrames, CaptionsTellOfTheMeshShown) {
+    // Within a patch of the guaranteed method the mesh is that of the iteration, not that before the patch.
+    const auto recording = testing::record(testing::runs()[5]);
+    TimelineFrames frames(recording, StepLevel::iteration, 0, 0, recording->step_count() - 1);
+    int others = 0;
+    for (int i = 0; i < frames.count(); ++i) {
+        const Frame frame = frames.make(i, {});
+        const double least = frame.quality->summary.min;
+        const std::string said = fmt::format("min {}{:.3g}", least < 0 ? "\u2212" : "", std::abs(least));
+        EXPECT_TRUE(frame.caption.ends_with(said)) << frame.caption << " but " << least;
+        const Index not_valid = frame.quality->summary.invalid + frame.quality->summary.undecided;
+        EXPECT_EQ(frame.caption.find("all valid") != std::string::npos, not_valid == 0) << frame.caption;
+        if (std::abs(least - recording->quality_at(static_cast<StepNumber>(i)).min_scaled_jacobian) > 0.01) ++others;
+    }
+    EXPECT_GT(others, 0);
 }
 
 }  // namespace
