@@ -68,17 +68,16 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     follows_ = new QCheckBox(tr("Keep the patch in view"));
     follows_->setObjectName(QStringLiteral("step_follows"));
     follows_->setToolTip(tr("Fly to every patch that comes into focus, unless the timeline plays."));
+    layout->setSpacing(6);
     layout->addWidget(title_);
     layout->addWidget(text_);
     layout->addWidget(numbers_);
-    layout->addWidget(follows_);
     layout->addWidget(plot_);
 
     trial_box_ = new QWidget;
     auto* box = new QVBoxLayout(trial_box_);
     box->setContentsMargins(0, 0, 0, 0);
     box->setSpacing(6);
-    box->addWidget(make_label(tr("What if"), "section"));
     auto* row = new QHBoxLayout;
     parameter_name_ = new QLabel;
     slider_ = new QSlider(Qt::Horizontal);
@@ -107,6 +106,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     contours_->setChecked(true);
     box->addWidget(contours_);
     layout->addWidget(trial_box_);
+    layout->addWidget(follows_);
     layout->addStretch(1);
 
     connect(plot_, &ConvergencePlot::step_chosen, this, &StepPanel::step_chosen);
@@ -133,10 +133,9 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
         trial_ = result;
         if (result) {
             landscape_->show_result(result, request_.step);
-            QString text = tr("The node would go to the diamond; least scaled Jacobian of its elements there: %1")
-                               .arg(format_number(result->outcome.min_scaled_jacobian));
-            text += result->outcome.not_valid == 0 ? tr(", all valid.")
-                                                   : tr(", %1 tangled.").arg(result->outcome.not_valid);
+            QString text =
+                tr("leads to the diamond: min scaled J %1").arg(format_number(result->outcome.min_scaled_jacobian));
+            if (result->outcome.not_valid > 0) text += tr(", %1 tangled").arg(result->outcome.not_valid);
             outcome_->setText(text);
         } else {
             landscape_->clear();
@@ -184,14 +183,14 @@ void StepPanel::show_parameter(const UntangleOptions& options) {
         // What the patch was done with, where the end tells; else what was given.
         if (const auto* given = std::get_if<SignedAngleOptions>(&options)) value = given->beta;
         if (request_.step->end && request_.step->end->beta > 0.0) value = request_.step->end->beta;
-        parameter_name_->setText(tr("β"));
+        parameter_name_->setText(tr("What if β ="));
     } else if (method == UntangleMethod::unsigned_angles) {
         if (const auto* given = std::get_if<UnsignedAngleOptions>(&options))
             if (!given->first_steps.empty()) value = given->first_steps.front();
-        parameter_name_->setText(tr("First step"));
+        parameter_name_->setText(tr("What if step ="));
     } else {
         if (request_.step->energy) value = request_.step->energy->eps;
-        parameter_name_->setText(tr("ε"));
+        parameter_name_->setText(tr("What if ε ="));
     }
     const QSignalBlocker slider_blocker(slider_), number_blocker(number_);
     number_->setRange(lower, upper);
@@ -275,9 +274,9 @@ void StepPanel::describe(const Recording& recording) {
             const auto& simplex = std::get<event::SimplexStep>(read);
             title = tr("Simplex step %1, node %2").arg(simplex.iteration).arg(node_tag(simplex.node));
             text =
-                tr("Nelder-Mead walks a triangle of trial positions downhill. The objective weighs how far the node "
-                   "goes against how far its four angles are from tangling.");
-            numbers << tr("objective %1 = displacement %2 + angles %3")
+                tr("Nelder-Mead: a triangle of trial positions walks downhill on "
+                   "(1 − β) displacement + β Σ exp(−10 angle).");
+            numbers << tr("objective %1 = %2 + %3")
                            .arg(format_number(simplex.objective[0]), format_number(simplex.displacement_term),
                                 format_number(simplex.angle_term))
                     << tr("angles %1").arg(angles_text(simplex.angles));
@@ -287,8 +286,8 @@ void StepPanel::describe(const Recording& recording) {
             const auto& bfgs = std::get<event::BfgsStep>(read);
             title = bfgs.iteration == 0 ? tr("BFGS begins") : tr("BFGS step %1").arg(bfgs.iteration);
             text =
-                tr("All nodes of the edge move along a quasi-Newton direction of the sum of the four unsigned "
-                   "angles. The sum is constant where nothing is tangled.");
+                tr("The edge's nodes move along a quasi-Newton direction of the sum of its four angles, which is "
+                   "constant where nothing is tangled.");
             numbers << tr("sum of the angles %1").arg(angle_text(bfgs.objective))
                     << tr("angles %1").arg(angles_text(bfgs.angles))
                     << tr("gradient %1, step %2").arg(format_number(bfgs.gradient_norm), format_number(bfgs.step));
@@ -298,14 +297,13 @@ void StepPanel::describe(const Recording& recording) {
             const auto& energy = std::get<event::EnergyStep>(read);
             title = tr("Round %1, L-BFGS step %2").arg(energy.round).arg(energy.iteration);
             text = energy.sharpness > 0.0
-                       ? tr("All elements are valid; a soft minimum of their scaled Jacobians is raised, together with "
-                            "the shape energy.")
-                       : tr("The foldover energy is finite even for tangled elements as long as ε is positive; ε falls "
-                            "as the least determinant rises, and drives it above zero.");
+                       ? tr("All elements are valid: a soft minimum of their scaled Jacobians is raised.")
+                       : tr("ε > 0 keeps the foldover energy finite while elements are tangled. It falls as the least "
+                            "determinant rises, and drives that above 0.");
             numbers << tr("energy %1").arg(format_number(energy.objective))
                     << (energy.sharpness > 0.0 ? tr("sharpness %1").arg(format_number(energy.sharpness))
                                                : tr("ε %1").arg(format_number(energy.eps)))
-                    << tr("least determinant at the samples %1").arg(format_number(energy.least_determinant));
+                    << tr("least determinant %1").arg(format_number(energy.least_determinant));
             break;
         }
         case StepKind::patch_certified: {
@@ -365,14 +363,14 @@ void StepPanel::describe(const Recording& recording) {
     }
     const QualityPoint& point = recording.quality_at(step.step);
     if (step.method) {
-        numbers << tr("worst of the patch: element %1, scaled Jacobian %2")
+        numbers << tr("patch: element %1 has min scaled J %2")
                        .arg(element_tag(step.worst_element), format_number(step.worst_scaled_jacobian));
         if (step.certificate && *step.method == UntangleMethod::guaranteed)
             numbers << tr("last certificate: round %1, %2 not valid")
                            .arg(step.certificate->round)
                            .arg(format_count(step.certificate->not_valid));
     }
-    numbers << tr("mesh: least scaled Jacobian %1, %2 not valid")
+    numbers << tr("mesh: min scaled J %1, %2 not valid")
                    .arg(format_number(point.min_scaled_jacobian), format_count(point.not_valid));
     title_->setText(title);
     text_->setText(text);
