@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <QHelpEvent>
 #include <QMouseEvent>
@@ -45,7 +46,8 @@ void ConvergencePlot::show_course(const StepExplanation& step) {
         series_ = {{tr("objective"), false, values([](const auto& p) { return p.objective; })},
                    {tr("its angle term"), true, values([](const auto& p) { return p.second; })}};
     } else if (step.method == UntangleMethod::unsigned_angles) {
-        series_ = {{tr("sum of the angles"), false, values([](const auto& p) { return p.objective; })}};
+        series_ = {{tr("sum of the angles (°)"), false,
+                    values([](const auto& p) { return p.objective * 180.0 / std::numbers::pi; })}};
     } else if (step.method == UntangleMethod::guaranteed) {
         series_ = {{tr("least determinant"), false, values([](const auto& p) { return p.first; })},
                    {tr("ε"), true, values([](const auto& p) { return p.second; })}};

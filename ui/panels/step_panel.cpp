@@ -107,6 +107,8 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     box->addWidget(contours_);
     layout->addWidget(trial_box_);
     layout->addWidget(follows_);
+    // A click leaves the keyboard with the track.
+    for (QCheckBox* box : {contours_, follows_}) box->setFocusPolicy(Qt::TabFocus);
     layout->addStretch(1);
 
     connect(plot_, &ConvergencePlot::step_chosen, this, &StepPanel::step_chosen);
@@ -114,7 +116,9 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
         if (!shown_method_) return;
         const auto [lower, upper, usual] = tried_parameter(*shown_method_);
         const QSignalBlocker blocker(number_);
-        number_->setValue(lower * std::pow(upper / lower, static_cast<double>(position) / slider_steps));
+        // As many digits as there is room for.
+        const double value = lower * std::pow(upper / lower, static_cast<double>(position) / slider_steps);
+        number_->setValue(QString::number(value, 'g', 3).toDouble());
         ask();
     });
     connect(number_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
@@ -286,8 +290,8 @@ void StepPanel::describe(const Recording& recording) {
             const auto& bfgs = std::get<event::BfgsStep>(read);
             title = bfgs.iteration == 0 ? tr("BFGS begins") : tr("BFGS step %1").arg(bfgs.iteration);
             text =
-                tr("The edge's nodes move along a quasi-Newton direction of the sum of its four angles, which is "
-                   "constant where nothing is tangled.");
+                tr("The edge's nodes go downhill on the sum of its four angles (quasi-Newton), which is level where "
+                   "nothing is tangled.");
             numbers << tr("sum of the angles %1").arg(angle_text(bfgs.objective))
                     << tr("angles %1").arg(angles_text(bfgs.angles))
                     << tr("gradient %1, step %2").arg(format_number(bfgs.gradient_norm), format_number(bfgs.step));
@@ -363,8 +367,8 @@ void StepPanel::describe(const Recording& recording) {
     }
     const QualityPoint& point = recording.quality_at(step.step);
     if (step.method) {
-        numbers << tr("patch: element %1 has min scaled J %2")
-                       .arg(element_tag(step.worst_element), format_number(step.worst_scaled_jacobian));
+        numbers << tr("patch: min scaled J %1, element %2")
+                       .arg(format_number(step.worst_scaled_jacobian), element_tag(step.worst_element));
         if (step.certificate && *step.method == UntangleMethod::guaranteed)
             numbers << tr("last certificate: round %1, %2 not valid")
                            .arg(step.certificate->round)
