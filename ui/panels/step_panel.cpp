@@ -89,6 +89,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     number_ = new LogSpinBox;
     number_->setObjectName(QStringLiteral("trial_number"));
     number_->setDecimals(6);
+    number_->setMinimumWidth(92);
     number_->setToolTip(slider_->toolTip());
     number_->setKeyboardTracking(false);
     row->addWidget(parameter_name_);
@@ -137,8 +138,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
         trial_ = result;
         if (result) {
             landscape_->show_result(result, request_.step);
-            QString text =
-                tr("leads to the diamond: min scaled J %1").arg(format_number(result->outcome.min_scaled_jacobian));
+            QString text = tr("diamond: scaled J %1").arg(format_number(result->outcome.min_scaled_jacobian));
             if (result->outcome.not_valid > 0) text += tr(", %1 tangled").arg(result->outcome.not_valid);
             outcome_->setText(text);
         } else {
@@ -302,11 +302,12 @@ void StepPanel::describe(const Recording& recording) {
             title = tr("Round %1, L-BFGS step %2").arg(energy.round).arg(energy.iteration);
             text = energy.sharpness > 0.0
                        ? tr("All elements are valid: a soft minimum of their scaled Jacobians is raised.")
-                       : tr("ε > 0 keeps the foldover energy finite while elements are tangled. It falls as the least "
-                            "determinant rises, and drives that above 0.");
-            numbers << tr("energy %1").arg(format_number(energy.objective))
-                    << (energy.sharpness > 0.0 ? tr("sharpness %1").arg(format_number(energy.sharpness))
-                                               : tr("ε %1").arg(format_number(energy.eps)))
+                       : tr("ε > 0 keeps the foldover energy finite while elements are tangled; it falls as the least "
+                            "determinant rises.");
+            numbers << (energy.sharpness > 0.0
+                            ? tr("energy %1, sharpness %2")
+                                  .arg(format_number(energy.objective), format_number(energy.sharpness))
+                            : tr("energy %1, ε %2").arg(format_number(energy.objective), format_number(energy.eps)))
                     << tr("least determinant %1").arg(format_number(energy.least_determinant));
             break;
         }
@@ -367,7 +368,7 @@ void StepPanel::describe(const Recording& recording) {
     }
     const QualityPoint& point = recording.quality_at(step.step);
     if (step.method) {
-        numbers << tr("patch: min scaled J %1, element %2")
+        numbers << tr("patch: scaled J %1 in element %2")
                        .arg(format_number(step.worst_scaled_jacobian), element_tag(step.worst_element));
         if (step.certificate && *step.method == UntangleMethod::guaranteed)
             numbers << tr("last certificate: round %1, %2 not valid")
