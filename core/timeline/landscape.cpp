@@ -86,8 +86,10 @@ std::vector<double> even_levels(const Eigen::MatrixXd& values, int count) {
     std::vector<double> levels;
     if (sorted.empty()) return levels;
     for (int i = 1; i <= count; ++i) {
-        const double level = sorted[static_cast<std::size_t>(static_cast<double>(i) / (count + 1) *
+        const double below = sorted[static_cast<std::size_t>(static_cast<double>(i) / (count + 1) *
                                                              static_cast<double>(sorted.size() - 1))];
+        const auto above = std::upper_bound(sorted.begin(), sorted.end(), below + 1e-9 * std::abs(below));
+        const double level = above == sorted.end() ? below : 0.5 * (below + *above);
         if (levels.empty() || level > levels.back()) levels.push_back(level);
     }
     return levels;

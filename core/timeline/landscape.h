@@ -26,7 +26,8 @@ struct Landscape {
 /// Lines of equal height as polylines of points (row, column). They end at the border only, or are closed (the last
 /// point is then the first one).
 std::vector<std::vector<Eigen::Vector2d>> contour_lines(const Eigen::MatrixXd& values, double level);
-/// Heights that cut the finite values into parts of as many grid points each, ascending.
+/// Heights that cut the finite values into parts of as many grid points each, ascending. None lies in a plateau, where
+/// a contour line would follow the rounding.
 std::vector<double> even_levels(const Eigen::MatrixXd& values, int count);
 
 /// The parameters that can be tried out on a patch.

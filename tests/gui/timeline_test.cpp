@@ -1,6 +1,7 @@
 /// The timeline: recordings in the window, with a real mouse.
 
 #include <QAction>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -163,6 +164,42 @@ class TimelineTest : public QObject {
                  qPrintable(place));
         test.press("timeline_step_out");
         QCOMPARE(test.player().step(), test.recording().patches()[*patch].last);
+    }
+
+    void bars_compare_the_step_with_the_start_however_they_are_drawn() {
+        TimelineUnderTest test;
+        test.record("Signed angles");
+        QVERIFY(test.arrive());
+        const QString start = test.text("before_figures"), end = [&] {
+            test.press("timeline_to_end");
+            return test.arrive() ? test.text("after_figures") : QString();
+        }();
+        QVERIFY(start != end && test.text("before_figures") == start);
+        test.press("timeline_to_start");
+        QVERIFY(test.arrive());
+        for (const char* name : {"log_counts", "overlay_bars", "show_group_figures"}) {
+            test.find<QCheckBox>(name)->toggle();
+            QCOMPARE(test.text("before_figures"), start);
+            QCOMPARE(test.text("after_figures"), start);
+        }
+        test.press("timeline_close");
+        QCOMPARE(test.text("before_figures"), start);
+        QCOMPARE(test.text("after_figures"), end);
+    }
+
+    void long_places_are_read_in_a_small_window() {
+        TimelineUnderTest test;
+        test.window->resize(1280, 800);
+        test.record("Signed angles");
+        test.player().set_level(StepLevel::iteration);
+        test.player().go_to(test.recording().patches().back().first + 10);
+        QVERIFY(test.arrive());
+        for (const char* name : {"timeline_place", "timeline_quality"}) {
+            const auto* label = test.find<QLabel>(name);
+            QVERIFY2(label->fontMetrics().horizontalAdvance(label->text()) <= label->width(),
+                     qPrintable(label->text()));
+            QVERIFY(label->fontMetrics().height() <= label->height());
+        }
     }
 
     void keys_step_and_play_while_the_track_has_the_keyboard() {

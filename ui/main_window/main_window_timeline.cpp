@@ -45,6 +45,13 @@ void MainWindow::connect_timeline() {
         step_tool_->show_trial(step_panel_->trial(), step_panel_->shows_contours());
         if (player_.is_open()) step_tool_->refresh();
     });
+    // Another scale of the bars is no reason to leave the recording, another mesh is.
+    connect(quality_panel_, &QualityPanel::refreshed, this, [this] {
+        if (!player_.is_open() || !player_.shown().has_quality || !document_.has_mesh()) return;
+        const auto& elements = player_.shown().quality.elements;
+        if (static_cast<Index>(elements.size()) == document_.state().mesh->topology().element_count())
+            quality_panel_->show_live(elements, player_.recording()->start_quality().elements);
+    });
     connect(timeline_panel_, &TimelinePanel::close_requested, this, &MainWindow::close_timeline);
     connect(timeline_panel_, &TimelinePanel::told, this,
             [this](const QString& text) { statusBar()->showMessage(text, 8000); });

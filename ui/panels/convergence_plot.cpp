@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include <QHelpEvent>
 #include <QMouseEvent>
@@ -16,7 +17,7 @@ namespace curvewright {
 
 namespace {
 
-constexpr double left_margin = 44.0, right_margin = 8.0, top_margin = 18.0, bottom_margin = 6.0;
+constexpr double left_margin = 62.0, right_margin = 8.0, top_margin = 18.0, bottom_margin = 6.0;
 
 }  // namespace
 
@@ -45,7 +46,8 @@ void ConvergencePlot::show_course(const StepExplanation& step) {
         series_ = {{tr("objective"), false, values([](const auto& p) { return p.objective; })},
                    {tr("its angle term"), true, values([](const auto& p) { return p.second; })}};
     } else if (step.method == UntangleMethod::unsigned_angles) {
-        series_ = {{tr("sum of the angles"), false, values([](const auto& p) { return p.objective; })}};
+        series_ = {{tr("sum of the angles (°)"), false,
+                    values([](const auto& p) { return p.objective * 180.0 / std::numbers::pi; })}};
     } else if (step.method == UntangleMethod::guaranteed) {
         series_ = {{tr("least determinant"), false, values([](const auto& p) { return p.first; })},
                    {tr("ε"), true, values([](const auto& p) { return p.second; })}};
@@ -65,7 +67,9 @@ void ConvergencePlot::show_course(const StepExplanation& step) {
             lower_ = std::min(lower_, 0.0);
             upper_ = std::max(upper_, 0.0);
         }
-        const double room = 0.06 * (upper_ - lower_) + 1e-12 * std::abs(upper_) + 1e-300;
+        // What changes by less than can be told from the scale looks level.
+        const double least_range = 0.005 * std::max(std::abs(lower_), std::abs(upper_)) + 1e-300;
+        const double room = std::max(0.06 * (upper_ - lower_), 0.5 * (least_range - (upper_ - lower_)));
         lower_ -= room;
         upper_ += room;
     }
@@ -143,10 +147,15 @@ void ConvergencePlot::paintEvent(QPaintEvent*) {
         painter.drawLine(QPointF(area.left(), height_of(0.0)), QPointF(area.right(), height_of(0.0)));
     }
     painter.setPen(muted);
-    painter.drawText(QRectF(0, area.top() - 7, left_margin - 5, 14), Qt::AlignRight | Qt::AlignVCenter,
-                     format_number(upper_));
-    painter.drawText(QRectF(0, area.bottom() - 9, left_margin - 5, 14), Qt::AlignRight | Qt::AlignVCenter,
-                     format_number(lower_));
+    const auto scale = [&](double y, double value) {
+        painter.drawText(QRectF(0, y - 7, left_margin - 5, 14), Qt::AlignRight | Qt::AlignVCenter, short_number(value));
+    };
+    if (short_number(lower_) == short_number(upper_)) {
+        scale(area.center().y(), 0.5 * (lower_ + upper_));
+    } else {
+        scale(area.top(), upper_);
+        scale(area.bottom() - 2, lower_);
+    }
     painter.setRenderHint(QPainter::Antialiasing);
     double legend = area.left();
     for (const Series& series : series_) {

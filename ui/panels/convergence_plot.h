@@ -21,7 +21,7 @@ class ConvergencePlot : public QWidget {
     /// The step shown is marked.
     void show_course(const StepExplanation& step);
 
-    QSize sizeHint() const override { return {240, 132}; }
+    QSize sizeHint() const override { return {240, 100}; }
     QSize minimumSizeHint() const override { return {160, 100}; }
     /// Where a step of the course is drawn, in the widget's pixels; −1 = it is not in the course.
     double x_of(StepNumber step) const;

@@ -21,7 +21,7 @@ class LandscapeView : public QWidget {
     void clear();
     void show_result(std::shared_ptr<const TrialResult> result, std::shared_ptr<const StepExplanation> step);
 
-    QSize sizeHint() const override { return {240, 190}; }
+    QSize sizeHint() const override { return {240, 180}; }
     QSize minimumSizeHint() const override { return {160, 130}; }
 
   protected:

@@ -213,6 +213,7 @@ void QualityPanel::refresh() {
     show_both(qualities_of(reference), qualities_of(document_.state()), 1);
     before_.histogram->setToolTip(reference.quality ? QString() : reference.quality_note);
     after_.histogram->setToolTip(document_.state().quality_note);
+    emit refreshed();
 }
 
 void QualityPanel::set_selected(const IndexSet& elements) {

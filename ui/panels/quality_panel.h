@@ -49,6 +49,8 @@ class QualityPanel : public QWidget {
     /// Elements of the present mesh that the user picked in a histogram or in the table.
     void elements_chosen(const std::vector<Index>& elements);
     void export_requested();
+    /// The document's states are shown, perhaps in place of something live.
+    void refreshed();
 
   private:
     struct Side {

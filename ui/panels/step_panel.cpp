@@ -68,17 +68,16 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     follows_ = new QCheckBox(tr("Keep the patch in view"));
     follows_->setObjectName(QStringLiteral("step_follows"));
     follows_->setToolTip(tr("Fly to every patch that comes into focus, unless the timeline plays."));
+    layout->setSpacing(6);
     layout->addWidget(title_);
     layout->addWidget(text_);
     layout->addWidget(numbers_);
-    layout->addWidget(follows_);
     layout->addWidget(plot_);
 
     trial_box_ = new QWidget;
     auto* box = new QVBoxLayout(trial_box_);
     box->setContentsMargins(0, 0, 0, 0);
     box->setSpacing(6);
-    box->addWidget(make_label(tr("What if"), "section"));
     auto* row = new QHBoxLayout;
     parameter_name_ = new QLabel;
     slider_ = new QSlider(Qt::Horizontal);
@@ -90,6 +89,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     number_ = new LogSpinBox;
     number_->setObjectName(QStringLiteral("trial_number"));
     number_->setDecimals(16);  // four digits are shown, but a weight that was found has all of them
+    number_->setMinimumWidth(92);
     number_->setToolTip(slider_->toolTip());
     number_->setKeyboardTracking(false);
     row->addWidget(parameter_name_);
@@ -107,6 +107,9 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     contours_->setChecked(true);
     box->addWidget(contours_);
     layout->addWidget(trial_box_);
+    layout->addWidget(follows_);
+    // A click leaves the keyboard with the track.
+    for (QCheckBox* box : {contours_, follows_}) box->setFocusPolicy(Qt::TabFocus);
     layout->addStretch(1);
 
     connect(plot_, &ConvergencePlot::step_chosen, this, &StepPanel::step_chosen);
@@ -114,7 +117,9 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
         if (!shown_method_) return;
         const auto [lower, upper, usual] = tried_parameter(*shown_method_);
         const QSignalBlocker blocker(number_);
-        number_->setValue(lower * std::pow(upper / lower, static_cast<double>(position) / slider_steps));
+        // As many digits as there is room for.
+        const double value = lower * std::pow(upper / lower, static_cast<double>(position) / slider_steps);
+        number_->setValue(QString::number(value, 'g', 3).toDouble());
         ask();
     });
     connect(number_, &QDoubleSpinBox::valueChanged, this, [this](double value) {
@@ -133,10 +138,8 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
         trial_ = result;
         if (result) {
             landscape_->show_result(result, request_.step);
-            QString text = tr("The node would go to the diamond; least scaled Jacobian of its elements there: %1")
-                               .arg(format_number(result->outcome.min_scaled_jacobian));
-            text += result->outcome.not_valid == 0 ? tr(", all valid.")
-                                                   : tr(", %1 tangled.").arg(result->outcome.not_valid);
+            QString text = tr("diamond: scaled J %1").arg(format_number(result->outcome.min_scaled_jacobian));
+            if (result->outcome.not_valid > 0) text += tr(", %1 tangled").arg(result->outcome.not_valid);
             outcome_->setText(text);
         } else {
             landscape_->clear();
@@ -185,14 +188,14 @@ void StepPanel::show_parameter(const Recording& recording, const UntangleOptions
         if (const auto* given = std::get_if<SignedAngleOptions>(&options)) value = given->beta;
         const StepEvent last = recording.read(recording.patches()[*shown_patch_].last);
         if (const auto* end = std::get_if<event::PatchEnded>(&last); end && end->beta > 0.0) value = end->beta;
-        parameter_name_->setText(tr("β"));
+        parameter_name_->setText(tr("What if β ="));
     } else if (method == UntangleMethod::unsigned_angles) {
         if (const auto* given = std::get_if<UnsignedAngleOptions>(&options))
             if (!given->first_steps.empty()) value = given->first_steps.front();
-        parameter_name_->setText(tr("First step"));
+        parameter_name_->setText(tr("What if step ="));
     } else {
         if (request_.step->energy) value = request_.step->energy->eps;
-        parameter_name_->setText(tr("ε"));
+        parameter_name_->setText(tr("What if ε ="));
     }
     const QSignalBlocker slider_blocker(slider_), number_blocker(number_);
     number_->setRange(lower, upper);
@@ -277,9 +280,9 @@ void StepPanel::describe(const Recording& recording) {
             const auto& simplex = std::get<event::SimplexStep>(read);
             title = tr("Simplex step %1, node %2").arg(simplex.iteration).arg(node_tag(simplex.node));
             text =
-                tr("Nelder-Mead walks a triangle of trial positions downhill. The objective weighs how far the node "
-                   "goes against how far its four angles are from tangling.");
-            numbers << tr("objective %1 = displacement %2 + angles %3")
+                tr("Nelder-Mead: a triangle of trial positions walks downhill on "
+                   "(1 − β) displacement + β Σ exp(−10 angle).");
+            numbers << tr("objective %1 = %2 + %3")
                            .arg(format_number(simplex.objective[0]), format_number(simplex.displacement_term),
                                 format_number(simplex.angle_term))
                     << tr("angles %1").arg(angles_text(simplex.angles));
@@ -289,8 +292,8 @@ void StepPanel::describe(const Recording& recording) {
             const auto& bfgs = std::get<event::BfgsStep>(read);
             title = bfgs.iteration == 0 ? tr("BFGS begins") : tr("BFGS step %1").arg(bfgs.iteration);
             text =
-                tr("All nodes of the edge move along a quasi-Newton direction of the sum of the four unsigned "
-                   "angles. The sum is constant where nothing is tangled.");
+                tr("The edge's nodes go downhill on the sum of its four angles (quasi-Newton), which is level where "
+                   "nothing is tangled.");
             numbers << tr("sum of the angles %1").arg(angle_text(bfgs.objective))
                     << tr("angles %1").arg(angles_text(bfgs.angles))
                     << tr("gradient %1, step %2").arg(format_number(bfgs.gradient_norm), format_number(bfgs.step));
@@ -300,14 +303,14 @@ void StepPanel::describe(const Recording& recording) {
             const auto& energy = std::get<event::EnergyStep>(read);
             title = tr("Round %1, L-BFGS step %2").arg(energy.round).arg(energy.iteration);
             text = energy.sharpness > 0.0
-                       ? tr("All elements are valid; a soft minimum of their scaled Jacobians is raised, together with "
-                            "the shape energy.")
-                       : tr("The foldover energy is finite even for tangled elements as long as ε is positive; ε falls "
-                            "as the least determinant rises, and drives it above zero.");
-            numbers << tr("energy %1").arg(format_number(energy.objective))
-                    << (energy.sharpness > 0.0 ? tr("sharpness %1").arg(format_number(energy.sharpness))
-                                               : tr("ε %1").arg(format_number(energy.eps)))
-                    << tr("least determinant at the samples %1").arg(format_number(energy.least_determinant));
+                       ? tr("All elements are valid: a soft minimum of their scaled Jacobians is raised.")
+                       : tr("ε > 0 keeps the foldover energy finite while elements are tangled; it falls as the least "
+                            "determinant rises.");
+            numbers << (energy.sharpness > 0.0
+                            ? tr("energy %1, sharpness %2")
+                                  .arg(format_number(energy.objective), format_number(energy.sharpness))
+                            : tr("energy %1, ε %2").arg(format_number(energy.objective), format_number(energy.eps)))
+                    << tr("least determinant %1").arg(format_number(energy.least_determinant));
             break;
         }
         case StepKind::patch_certified: {
@@ -367,14 +370,14 @@ void StepPanel::describe(const Recording& recording) {
     }
     const QualityPoint point{step.step, static_cast<float>(quality_.min), quality_.invalid + quality_.undecided};
     if (step.method) {
-        numbers << tr("worst of the patch: element %1, scaled Jacobian %2")
-                       .arg(element_tag(step.worst_element), format_number(step.worst_scaled_jacobian));
+        numbers << tr("patch: scaled J %1 in element %2")
+                       .arg(format_number(step.worst_scaled_jacobian), element_tag(step.worst_element));
         if (step.certificate && *step.method == UntangleMethod::guaranteed)
             numbers << tr("last certificate: round %1, %2 not valid")
                            .arg(step.certificate->round)
                            .arg(format_count(step.certificate->not_valid));
     }
-    numbers << tr("mesh: least scaled Jacobian %1, %2 not valid")
+    numbers << tr("mesh: min scaled J %1, %2 not valid")
                    .arg(format_number(point.min_scaled_jacobian), format_count(point.not_valid));
     title_->setText(title);
     text_->setText(text);

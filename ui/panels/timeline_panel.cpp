@@ -106,14 +106,20 @@ void TimelinePanel::make_transport() {
     speed_->setValue(player_.speed());
     line->addWidget(speed_);
     line->addSpacing(12);
+    // One over the other: the place alone can fill the width of a small window.
+    auto* texts = new QVBoxLayout;
+    texts->setContentsMargins(0, 0, 0, 0);
+    texts->setSpacing(0);
     place_ = make_label(QString(), "");
     place_->setObjectName(QStringLiteral("timeline_place"));
-    place_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
-    line->addWidget(place_, 1);
-    line->addSpacing(8);
     quality_ = make_label(QString(), "");
     quality_->setObjectName(QStringLiteral("timeline_quality"));
-    line->addWidget(quality_);
+    for (QLabel* label : {place_, quality_}) {
+        label->setFont(Theme::small_font());
+        label->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);
+        texts->addWidget(label);
+    }
+    line->addLayout(texts, 1);
     line->addSpacing(8);
 
     jump_ = new QToolButton;

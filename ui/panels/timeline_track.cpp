@@ -14,7 +14,7 @@
 namespace curvewright {
 namespace {
 
-constexpr double left_margin = 44.0, right_margin = 54.0;
+constexpr double left_margin = 50.0, right_margin = 54.0;
 constexpr double ruler_height = 16.0, row_height = 14.0, top_of_plot = ruler_height + 2 * row_height + 5.0;
 constexpr double bottom_margin = 4.0;
 constexpr double shortest_stretch = 8.0;  // steps

@@ -209,6 +209,13 @@ TEST(EvenLevels, CutTheValuesIntoEqualParts) {
                     20.0 * (i + 1), 1.0);
     values.setConstant(3.0);
     EXPECT_EQ(even_levels(values, 4).size(), 1u);
+    // A plateau with rounding errors beside a slope: no line wanders over the plateau.
+    for (Eigen::Index r = 0; r < 10; ++r)
+        for (Eigen::Index c = 0; c < 10; ++c)
+            values(r, c) = c < 6 ? 1.0 + 1e-15 * static_cast<double>((7 * r + 3 * c) % 5) : static_cast<double>(c - 4);
+    for (const double level : even_levels(values, 4))
+        for (const auto& line : contour_lines(values, level))
+            for (const Eigen::Vector2d& point : line) EXPECT_GT(point[1], 5.0);
 }
 
 }  // namespace
