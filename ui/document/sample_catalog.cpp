@@ -55,6 +55,8 @@ void read_method(const QJsonObject& object, Sample& sample) {
     sample.is_as_published = object.value(QLatin1String("as_published")).toBool();
     const double beta = object.value(QLatin1String("beta")).toDouble();
     if (beta > 0.0 && beta <= 1.0) sample.beta = beta;
+    if (const QJsonValue minimum = object.value(QLatin1String("result_min")); minimum.isDouble())
+        sample.result_minimum = minimum.toDouble();
 }
 
 std::optional<Sample> read_sample(const QJsonObject& object, const QDir& folder) {

@@ -26,7 +26,8 @@ struct Sample {
     UntangleMethod method = UntangleMethod::guaranteed;
     /// The method as it was published, without what this program adds to it.
     bool is_as_published = false;
-    std::optional<double> beta;  ///< of signed angles; none: chosen for every edge
+    std::optional<double> beta;            ///< of signed angles; none: chosen for every edge
+    std::optional<double> result_minimum;  ///< scaled Jacobian that the method, so set up, reaches
 
     /// "Figure 2.5, tables 2.3, 2.4"; empty if it is nowhere in the thesis.
     QString reference() const;

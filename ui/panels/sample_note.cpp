@@ -4,6 +4,7 @@
 #include <QLabel>
 #include <QToolButton>
 
+#include "ui/document/number_format.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -47,7 +48,11 @@ SampleNote::SampleNote(const Theme& theme, QWidget* parent) : QWidget(parent) {
 void SampleNote::show_sample(const Sample& sample) {
     title_->setText(sample.title);
     reference_->setText(sample.reference());
-    look_for_->setText(sample.look_for);
+    QString text = sample.look_for;
+    if (sample.result_minimum)
+        text +=
+            QLatin1Char(' ') + tr("As set up here, the minimum becomes %1.").arg(format_number(*sample.result_minimum));
+    look_for_->setText(text);
     setVisible(!sample.look_for.isEmpty());
 }
 
