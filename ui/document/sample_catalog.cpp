@@ -100,12 +100,16 @@ QString chapter_title(int chapter) {
     }
 }
 
+QString Sample::figures_text() const {
+    if (figures.isEmpty()) return {};
+    return (figures.size() == 1 ? tr("Figure %1") : tr("Figures %1")).arg(figures.join(QStringLiteral(", ")));
+}
+
 QString Sample::reference() const {
     QStringList parts;
-    const QString comma = QStringLiteral(", ");
-    if (!figures.isEmpty())
-        parts << (figures.size() == 1 ? tr("Figure %1") : tr("Figures %1")).arg(figures.join(comma));
-    if (!tables.isEmpty()) parts << (tables.size() == 1 ? tr("Table %1") : tr("Tables %1")).arg(tables.join(comma));
+    if (!figures.isEmpty()) parts << figures_text();
+    if (!tables.isEmpty())
+        parts << (tables.size() == 1 ? tr("Table %1") : tr("Tables %1")).arg(tables.join(QStringLiteral(", ")));
     return parts.join(QStringLiteral(" · "));
 }
 

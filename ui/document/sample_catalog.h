@@ -29,7 +29,9 @@ struct Sample {
     std::optional<double> beta;            ///< of signed angles; none: chosen for every edge
     std::optional<double> result_minimum;  ///< scaled Jacobian that the method, so set up, reaches
 
-    /// "Figure 2.5, tables 2.3, 2.4"; empty if it is nowhere in the thesis.
+    /// "Figure 2.5"; empty if there is none.
+    QString figures_text() const;
+    /// "Figure 2.5 · Tables 2.3, 2.4"; empty if it is nowhere in the thesis.
     QString reference() const;
     /// False for a large mesh that has not been made yet.
     bool is_there() const;

@@ -114,8 +114,7 @@ void MainWindow::fill_samples_menu() {
             QString text = sample.title;
             text.replace(QLatin1Char('&'), QStringLiteral("&&"));
             // Where shortcuts stand in other menus.
-            if (!sample.figures.isEmpty())
-                text += QLatin1Char('\t') + tr("Figure %1").arg(sample.figures.join(QStringLiteral(", ")));
+            if (!sample.figures.isEmpty()) text += QLatin1Char('\t') + sample.figures_text();
             QAction* action = menu->addAction(text, this, [this, sample] { open_sample(sample); });
             action->setObjectName(QStringLiteral("sample_") + sample.name);
             action->setStatusTip(sample.description);

@@ -43,7 +43,7 @@ class SampleCard : public QFrame {
             picture->setText(tr("P%1, %2D").arg(sample.order).arg(sample.dimension));
 
         QString task = sample.task == Sample::Task::untangle ? tr("Untangle") : tr("Warp");
-        if (!sample.figures.isEmpty()) task = tr("%1 · Figure %2").arg(task, sample.figures.join(QStringLiteral(", ")));
+        if (!sample.figures.isEmpty()) task = tr("%1 · %2").arg(task, sample.figures_text());
         if (!sample.is_there()) task = tr("Made on demand");
         auto* facts = make_label(
             tr("P%1 · %2D · %3 elements").arg(sample.order).arg(sample.dimension).arg(format_count(sample.elements)),
