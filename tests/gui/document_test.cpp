@@ -34,6 +34,12 @@ CurvedMesh moved(const CurvedMesh& mesh, double distance) {
     return mesh.with_coordinates(x);
 }
 
+void write_manifest(const Inputs& inputs, const QByteArray& text) {
+    QFile manifest(inputs.path(QStringLiteral("MANIFEST")));
+    QVERIFY(manifest.open(QIODevice::WriteOnly));
+    manifest.write(text);
+}
+
 }  // namespace
 
 class DocumentTest : public QObject {
@@ -232,13 +238,10 @@ class DocumentTest : public QObject {
 
     void samples_come_from_their_manifest() {
         const Inputs inputs;
-        QFile manifest(inputs.path(QStringLiteral("MANIFEST")));
-        QVERIFY(manifest.open(QIODevice::WriteOnly));
-        manifest.write(
-            R"({"samples": [{"name": "s", "title": "Square", "mesh": "square.msh", "deformation": "bump.json",
+        write_manifest(
+            inputs, R"({"samples": [{"name": "s", "title": "Square", "mesh": "square.msh", "deformation": "bump.json",
             "dimension": 2, "order": 3, "elements": 32, "task": "untangle", "start": "straight", "beta": 0.25},
             {"name": "gone", "mesh": "gone.msh"}]})");
-        manifest.close();
         const SampleCatalog catalog = SampleCatalog::load(inputs.path(QString()));
         QCOMPARE(catalog.samples().size(), 1);
         const Sample* sample = catalog.find(QStringLiteral("s"));
@@ -248,6 +251,73 @@ class DocumentTest : public QObject {
         QCOMPARE(sample->beta, std::optional(0.25));
         QVERIFY(
             SampleCatalog::load(inputs.path(QStringLiteral("nowhere"))).error().contains(QStringLiteral("MANIFEST")));
+    }
+
+    void samples_know_their_place_in_the_thesis() {
+        const Inputs inputs;
+        write_manifest(inputs, R"({"samples": [
+            {"name": "w", "title": "W", "mesh": "square.msh", "chapter": 2, "figures": ["2.5"], "tables": ["2.3", "2.4"],
+             "method": "affine", "as_published": true, "look_for": "The gap."},
+            {"name": "u", "mesh": "square.msh", "chapter": 3, "task": "untangle", "method": "unsigned-angle"},
+            {"name": "s", "mesh": "square.msh", "chapter": 4, "method": "signed-angle", "beta": 1e-5, "result_min": -0.25},
+            {"name": "large", "mesh": "large.msh", "made_on_demand": true}]})");
+        const SampleCatalog catalog = SampleCatalog::load(inputs.path(QString()));
+        QCOMPARE(catalog.samples().size(), 4);
+        QCOMPARE(catalog.chapters(), (QVector<int>{2, 3, 4, 0}));
+        const Sample* warp = catalog.find(QStringLiteral("w"));
+        QCOMPARE(warp->reference(), QStringLiteral("Figure 2.5 · Tables 2.3, 2.4"));
+        QCOMPARE(warp->look_for, QStringLiteral("The gap."));
+        QVERIFY(warp->weighting == Weighting::affine && warp->is_as_published && warp->is_there());
+        const Sample* untangle = catalog.find(QStringLiteral("u"));
+        QVERIFY(untangle->method == UntangleMethod::unsigned_angles && !untangle->is_as_published);
+        QCOMPARE(untangle->title, QStringLiteral("u"));
+        QVERIFY(untangle->reference().isEmpty());
+        QVERIFY(catalog.find(QStringLiteral("s"))->method == UntangleMethod::signed_angles);
+        QCOMPARE(catalog.find(QStringLiteral("s"))->beta, std::optional(1e-5));
+        QCOMPARE(catalog.find(QStringLiteral("s"))->result_minimum, std::optional(-0.25));
+        const Sample* large = catalog.find(QStringLiteral("large"));
+        QVERIFY(!large->is_there());
+        QVERIFY(large->how_to_make().contains(QStringLiteral("generate.py large")));
+        QCOMPARE(catalog.of_chapter(0).size(), 1);
+    }
+
+    void malformed_manifests_do_no_harm() {
+        const Inputs inputs;
+        QTemporaryDir elsewhere;
+        QVERIFY(QFile::copy(inputs.path(QStringLiteral("square.msh")), elsewhere.filePath(QStringLiteral("x.msh"))));
+        // What is wrong in one value leaves the rest.
+        const QString endless(5000, QLatin1Char('x'));
+        write_manifest(inputs, QStringLiteral(R"({"samples": [7, null, [], {}, "s",
+            {"name": "a", "title": ["no"], "mesh": "square.msh", "chapter": 99, "figures": "2.5",
+             "tables": [2.3, "<b>", "2.3.4", "2.3", "2.3\n"], "method": 5, "as_published": "yes", "beta": 7, "result_min": "x",
+             "look_for": "one\ntwo%1", "thumbnail": "../../secret.png", "deformation": "%2/x.msh"},
+            {"name": "a", "mesh": "square.msh", "title": "Again"},
+            {"name": "b", "mesh": "square.msh", "chapter": -2, "beta": "0.5", "method": "magic", "figures": {"a": 1}},
+            {"name": "up", "mesh": "../%3/x.msh"}, {"name": "there", "mesh": "%2/x.msh"},
+            {"name": "far", "mesh": "../far.msh", "made_on_demand": true},
+            {"name": "c", "mesh": 3}, {"mesh": "square.msh"}]})")
+                                   .arg(endless, elsewhere.path(), QDir(elsewhere.path()).dirName())
+                                   .toUtf8());
+        const SampleCatalog catalog = SampleCatalog::load(inputs.path(QString()));
+        QCOMPARE(catalog.samples().size(), 2);
+        QCOMPARE(catalog.chapters(), QVector<int>{0});
+        const Sample& a = catalog.samples().front();
+        QCOMPARE(a.title, QStringLiteral("a"));
+        QVERIFY(a.figures.isEmpty() && !a.beta && !a.result_minimum && !a.is_as_published);
+        QCOMPARE(a.tables, QStringList{QStringLiteral("2.3")});
+        QVERIFY(a.weighting == Weighting::convex && a.method == UntangleMethod::guaranteed);
+        QVERIFY(a.look_for.startsWith(QStringLiteral("one two")) && a.look_for.size() <= 400);
+        QVERIFY(a.thumbnail_path.isEmpty() && a.deformation_path.isEmpty());
+        QVERIFY(!catalog.samples().back().beta);
+
+        for (const QByteArray& text : {QByteArray(), QByteArray("{"), QByteArray("[]"), QByteArray("{\"samples\": 3}"),
+                                       QByteArray("{\"samples\": ["), QByteArray("\0\xff\xfe", 3),
+                                       QByteArray(100000, '['), QByteArray(2 << 20, ' ')}) {
+            write_manifest(inputs, text);
+            const SampleCatalog none = SampleCatalog::load(inputs.path(QString()));
+            QVERIFY(none.samples().isEmpty() && none.chapters().isEmpty());
+            QVERIFY(none.error().contains(QStringLiteral("MANIFEST")));
+        }
     }
 
     void platforms_without_opengl_are_refused() {

@@ -43,8 +43,11 @@ class BracketTranslator : public QTranslator {
 /// What people may read untranslated: names that are data, and the program's own.
 QStringList data_of(const MainWindow& window) {
     QStringList data{QStringLiteral("Curvewright"), QDir::homePath(), QDir::tempPath()};
-    for (const Sample& sample : window.samples().samples()) data << sample.title << sample.description << sample.name;
+    for (const Sample& sample : window.samples().samples())
+        data << sample.title << sample.description << sample.look_for << sample.name;
     data << window.samples().error();
+    // A title may begin another one.
+    std::sort(data.begin(), data.end(), [](const QString& a, const QString& b) { return a.size() > b.size(); });
     return data;
 }
 

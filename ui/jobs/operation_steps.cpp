@@ -35,7 +35,9 @@ QString warp_name(const WarpOptions& options, const std::optional<IncrementOptio
             : options.weighting == Weighting::affine ? tr(", affine weights")
                                                      : tr(", convex weights");
     if (options.weighting != Weighting::elastic && options.distance_power != WarpOptions().distance_power)
-        name += tr(", power %1").arg(short_number(options.distance_power));
+        name += options.distance_power == 0.0 && options.sharing_power == 0.0
+                    ? tr(", as published")
+                    : tr(", power %1").arg(short_number(options.distance_power));
     if (increments) name += QStringLiteral(", ") + steps_text(*increments);
     return name;
 }

@@ -22,6 +22,7 @@
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/sample_note.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/untangle_panel.h"
 #include "ui/panels/widgets.h"
@@ -214,6 +215,7 @@ void MainWindow::connect_panels() {
 
 void MainWindow::show_opened() {
     saved_format_.reset();
+    sample_note_->hide();
     const bool has_mesh = document_.has_mesh();
     center_->setCurrentWidget(has_mesh ? view_page_ : static_cast<QWidget*>(start_page_));
     for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {

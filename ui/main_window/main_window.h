@@ -33,6 +33,7 @@ class QTabWidget;
 namespace curvewright {
 
 class Banner;
+class SampleNote;
 class ClipBar;
 class ColorBar;
 class DeformPanel;
@@ -94,6 +95,8 @@ class MainWindow : public QMainWindow {
     QDockWidget* add_dock(const QString& name, const QString& title, Qt::DockWidgetArea area, QWidget* content);
     void fill_recent_menu();
     void fill_samples_menu();
+    /// Sets the method and its parameters as the thesis has them for a sample.
+    void prepare_method(const Sample& sample);
     void restore_layout();
     void save_layout() const;
     void reset_layout();
@@ -220,6 +223,7 @@ class MainWindow : public QMainWindow {
     StartPage* start_page_ = nullptr;
     QWidget* view_page_ = nullptr;
     Banner* banner_ = nullptr;
+    SampleNote* sample_note_ = nullptr;
     MeshView* view_ = nullptr;
     MeshView* before_view_ = nullptr;  ///< beside view_, if the user wants to compare
     ClipBar* clip_bar_ = nullptr;

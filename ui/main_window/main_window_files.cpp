@@ -14,6 +14,7 @@
 #include "ui/main_window/picture_dialog.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/sample_note.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/untangle_panel.h"
 
@@ -125,6 +126,10 @@ void MainWindow::open_file(const QString& path, const QString& deformation_path,
 
 void MainWindow::open_sample(const Sample& sample) {
     if (is_busy()) return;
+    if (!sample.is_there()) {
+        dialogs_.show_error(this, tr("%1 has to be made first").arg(sample.title), sample.how_to_make());
+        return;
+    }
     when_settled([this, sample] {
         const bool is_untangle = sample.task == Sample::Task::untangle;
         OpenRequest request;
@@ -133,14 +138,23 @@ void MainWindow::open_sample(const Sample& sample) {
         request.apply_deformation = is_untangle && !sample.is_deformed;
         request.is_starting_point = true;
         request.then = [this, sample, is_untangle] {
-            if (sample.beta)
-                untangle_panel_->set_beta(*sample.beta);
-            else
-                untangle_panel_->choose_guaranteed();
+            prepare_method(sample);
             show_tab(is_untangle ? QStringLiteral("untangle") : QStringLiteral("warp"));
+            sample_note_->show_sample(sample);
         };
         jobs_.open(request);
     });
+}
+
+void MainWindow::prepare_method(const Sample& sample) {
+    const bool is_warp = sample.task == Sample::Task::warp;
+    warp_panel_->choose(sample.weighting, is_warp && sample.is_as_published);
+    if (sample.method == UntangleMethod::unsigned_angles)
+        untangle_panel_->choose_unsigned_angles(sample.is_as_published);
+    else if (sample.beta)
+        untangle_panel_->set_beta(*sample.beta);
+    else
+        untangle_panel_->choose_guaranteed();
 }
 
 void MainWindow::load_deformation(const QString& path) {

@@ -27,6 +27,7 @@
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
+#include "ui/panels/sample_note.h"
 #include "ui/panels/selection_panel.h"
 #include "ui/panels/start_page.h"
 #include "ui/panels/step_panel.h"
@@ -107,9 +108,18 @@ void MainWindow::fill_recent_menu() {
 }
 
 void MainWindow::fill_samples_menu() {
-    for (const Sample& sample : samples_.samples())
-        samples_menu_->addAction(sample.title, this, [this, sample] { open_sample(sample); })
-            ->setStatusTip(sample.description);
+    for (const int chapter : samples_.chapters()) {
+        QMenu* menu = samples_menu_->addMenu(chapter_title(chapter));
+        for (const Sample& sample : samples_.of_chapter(chapter)) {
+            QString text = sample.title;
+            text.replace(QLatin1Char('&'), QStringLiteral("&&"));
+            // Where shortcuts stand in other menus.
+            if (!sample.figures.isEmpty()) text += QLatin1Char('\t') + sample.figures_text();
+            QAction* action = menu->addAction(text, this, [this, sample] { open_sample(sample); });
+            action->setObjectName(QStringLiteral("sample_") + sample.name);
+            action->setStatusTip(sample.description);
+        }
+    }
     if (samples_menu_->isEmpty()) samples_menu_->addAction(samples_.error())->setEnabled(false);
 }
 
@@ -135,11 +145,13 @@ void MainWindow::build_center() {
     start_page_ = new StartPage(samples_, recent_, theme_);
     view_ = new MeshView;
     banner_ = new Banner(theme_);
+    sample_note_ = new SampleNote(theme_);
     view_page_ = new QWidget;
     auto* layout = new QVBoxLayout(view_page_);
     layout->setContentsMargins(0, 0, 0, 0);
     layout->setSpacing(0);
     layout->addWidget(banner_);
+    layout->addWidget(sample_note_);
     before_view_ = new MeshView(nullptr, QStringLiteral("before_view"));
     auto* views = new QSplitter(Qt::Horizontal);
     views->setObjectName(QStringLiteral("views"));

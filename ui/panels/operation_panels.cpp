@@ -150,6 +150,12 @@ void WarpPanel::make_fields() {
                                    "0: the distance does not count.\n"
                                    "%1: the default; keeps small elements near the moving boundary in shape.")
                                     .arg(defaults.distance_power));
+    as_published_ = new QCheckBox(tr("As published"));
+    as_published_->setObjectName(QStringLiteral("weights_as_published"));
+    as_published_->setToolTip(
+        tr("All nodes of its elements count alike for an interior node.\n"
+           "Otherwise near ones count more, and those that it meets in several elements; that keeps small elements in "
+           "shape."));
     steps_ = make_choice("steps", tr("Whether the boundary moves at once or in steps."),
                          {{tr("At once"), int(StepChoice::at_once), tr("the quickest.")},
                           {tr("Automatic"), int(StepChoice::automatic),
@@ -190,6 +196,7 @@ void WarpPanel::make_fields() {
 
     form_ = make_form();
     form_->addRow(tr("Weights"), weights_);
+    form_->addRow(as_published_);
     form_->addRow(tr("Distance power"), distance_power_);
     form_->addRow(tr("Steps"), steps_);
     form_->addRow(tr("How many"), step_count_);
@@ -206,6 +213,7 @@ void WarpPanel::make_fields() {
     };
     connect(weights_, &QComboBox::currentIndexChanged, this, follow);
     connect(steps_, &QComboBox::currentIndexChanged, this, follow);
+    connect(as_published_, &QCheckBox::toggled, this, follow);
     connect(more_, &QPushButton::toggled, this, follow);
     show_fields();
 }
@@ -213,7 +221,8 @@ void WarpPanel::make_fields() {
 void WarpPanel::show_fields() {
     const bool is_elastic = chosen<Weighting>(weights_) == Weighting::elastic, is_unfolded = more_->isChecked();
     const auto steps = chosen<StepChoice>(steps_);
-    form_->setRowVisible(distance_power_, !is_elastic);
+    form_->setRowVisible(as_published_, !is_elastic);
+    form_->setRowVisible(distance_power_, !is_elastic && !as_published_->isChecked());
     form_->setRowVisible(step_count_, steps == StepChoice::number);
     form_->setRowVisible(new_weights_, steps != StepChoice::at_once);
     form_->setRowVisible(neighbours_, is_unfolded && !is_elastic);
@@ -247,11 +256,18 @@ WarpOptions WarpPanel::options() const {
     WarpOptions options;
     options.weighting = chosen<Weighting>(weights_);
     options.distance_power = distance_power_->value();
+    if (as_published_->isChecked()) options.distance_power = options.sharing_power = 0.0;
     options.neighbours = chosen<NeighbourKind>(neighbours_);
     options.poisson_ratio = poisson_ratio_->value();
     options.stiffening = stiffening_->value();
     options.solver = chosen<SolverChoice>(solver_);
     return options;
+}
+
+void WarpPanel::choose(Weighting weighting, bool is_as_published) {
+    weights_->setCurrentIndex(weights_->findData(int(weighting)));
+    as_published_->setChecked(is_as_published);
+    steps_->setCurrentIndex(steps_->findData(int(StepChoice::at_once)));
 }
 
 std::optional<IncrementOptions> WarpPanel::increments() const {

@@ -71,6 +71,8 @@ class WarpPanel : public OperationPanel {
     void run() override;
     QString why_not() const override;
     WarpOptions options() const;
+    /// Chooses these weights, at once; as published: all nodes of a patch count alike.
+    void choose(Weighting weighting, bool is_as_published);
     /// None: at once.
     std::optional<IncrementOptions> increments() const;
 
@@ -83,7 +85,7 @@ class WarpPanel : public OperationPanel {
     QComboBox *weights_ = nullptr, *steps_ = nullptr, *neighbours_ = nullptr, *solver_ = nullptr;
     QDoubleSpinBox *distance_power_ = nullptr, *poisson_ratio_ = nullptr, *stiffening_ = nullptr;
     QSpinBox* step_count_ = nullptr;
-    QCheckBox* new_weights_ = nullptr;
+    QCheckBox *new_weights_ = nullptr, *as_published_ = nullptr;
     QPushButton* more_ = nullptr;
     QFormLayout* form_ = nullptr;
     QLabel *explanation_ = nullptr, *applied_ = nullptr;

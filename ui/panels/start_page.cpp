@@ -42,7 +42,9 @@ class SampleCard : public QFrame {
         else
             picture->setText(tr("P%1, %2D").arg(sample.order).arg(sample.dimension));
 
-        const QString task = sample.task == Sample::Task::untangle ? tr("Untangle") : tr("Warp");
+        QString task = sample.task == Sample::Task::untangle ? tr("Untangle") : tr("Warp");
+        if (!sample.figures.isEmpty()) task = tr("%1 · %2").arg(task, sample.figures_text());
+        if (!sample.is_there()) task = tr("Made on demand");
         auto* facts = make_label(
             tr("P%1 · %2D · %3 elements").arg(sample.order).arg(sample.dimension).arg(format_count(sample.elements)),
             "muted");
@@ -124,8 +126,13 @@ StartPage::StartPage(const SampleCatalog& samples, RecentFiles& recent, const Th
     column->addWidget(recent_section_);
 
     column->addSpacing(8);
-    column->addWidget(make_label(tr("Samples"), "section"));
-    column->addWidget(make_samples(samples));
+    column->addWidget(make_label(tr("Samples"), "title"));
+    if (samples.samples().isEmpty()) column->addWidget(make_paragraph(samples.error(), "muted"));
+    for (const int chapter : samples.chapters()) {
+        column->addWidget(make_label(chapter_title(chapter), "section"));
+        column->addWidget(make_gallery(samples.of_chapter(chapter)));
+        column->addSpacing(12);
+    }
     column->addStretch();
 
     auto* center = new QWidget;
@@ -176,14 +183,13 @@ QWidget* StartPage::make_drop_zone() {
     return drop_zone_;
 }
 
-QWidget* StartPage::make_samples(const SampleCatalog& samples) {
-    if (samples.samples().isEmpty()) return make_paragraph(samples.error(), "muted");
+QWidget* StartPage::make_gallery(const QVector<Sample>& samples) {
     auto* gallery = new QWidget;
     auto* grid = new QGridLayout(gallery);
     grid->setContentsMargins(0, 0, 0, 0);
     grid->setSpacing(12);
     int position = 0;
-    for (const Sample& sample : samples.samples()) {
+    for (const Sample& sample : samples) {
         grid->addWidget(new SampleCard(sample, [this, sample] { emit sample_chosen(sample); }), position / columns,
                         position % columns);
         ++position;

@@ -28,7 +28,7 @@ class StartPage : public QWidget {
 
   private:
     QWidget* make_drop_zone();
-    QWidget* make_samples(const SampleCatalog& samples);
+    QWidget* make_gallery(const QVector<Sample>& samples);
     void show_recent();
 
     RecentFiles& recent_;

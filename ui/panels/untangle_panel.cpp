@@ -172,6 +172,11 @@ void UntanglePanel::set_beta(double beta) {
     beta_->setValue(beta);
 }
 
+void UntanglePanel::choose_unsigned_angles(bool is_literal) {
+    method_->setCurrentIndex(method_->findData(int(UntangleMethod::unsigned_angles)));
+    literal_->setChecked(is_literal);
+}
+
 void UntanglePanel::choose_guaranteed() {
     method_->setCurrentIndex(method_->findData(int(UntangleMethod::guaranteed)));
 }

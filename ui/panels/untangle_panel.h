@@ -19,6 +19,8 @@ class UntanglePanel : public OperationPanel {
     UntangleOptions options() const;
     /// Chooses signed angles with this weight.
     void set_beta(double beta);
+    /// Chooses unsigned angles, to the letter or with several starts.
+    void choose_unsigned_angles(bool is_literal);
     void choose_guaranteed();
 
   private:
