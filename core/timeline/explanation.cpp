@@ -13,10 +13,6 @@ namespace {
 namespace event = untangle_event;
 using event::Position;
 
-Position position_of_node(const Coordinates& x, Index node) {
-    return {x(node, 0), x(node, 1), x(node, 2)};
-}
-
 /// The angles of an edge in the present positions.
 std::vector<AngleMark> find_angles(const MeshTopology& topology, const Coordinates& x, const InteriorEdge& edge,
                                    double sign, double& edge_length) {
@@ -28,7 +24,7 @@ std::vector<AngleMark> find_angles(const MeshTopology& topology, const Coordinat
     for (int i = 0; i < 4; ++i) {
         AngleMark mark;
         mark.triangle = edge.triangles[i / 2];
-        mark.corner = position_of_node(x, ends[i % 2]);
+        mark.corner = position_of(x, ends[i % 2]);
         mark.edge_tangent = tangents.fixed[i % 2].normalized();
         mark.other_tangent = tangents.others[i];
         const double cross = tangents.senses[i] * (mark.edge_tangent[0] * mark.other_tangent[1] -

@@ -79,7 +79,7 @@ void Recorder::place(std::span<const Index> nodes, std::span<const Position> pos
 StepCodec::Moved Recorder::moved_nodes(std::span<const Index> nodes, std::span<const Position> positions) const {
     StepCodec::Moved moved;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const Position before{x_(nodes[i], 0), x_(nodes[i], 1), x_(nodes[i], 2)};
+        const Position before = position_of(x_, nodes[i]);
         if (before == positions[i]) continue;
         moved.nodes.push_back(nodes[i]);
         moved.before.push_back(before);

@@ -28,7 +28,7 @@ untangle_event::NodesPlaced placed_nodes(untangle_event::Placement placement, co
     for (Eigen::Index node = 0; node < after.rows(); ++node) {
         if (before.row(node) == after.row(node)) continue;
         placed.nodes.push_back(static_cast<Index>(node));
-        placed.positions.push_back({after(node, 0), after(node, 1), after(node, 2)});
+        placed.positions.push_back(position_of(after, static_cast<Index>(node)));
     }
     return placed;
 }

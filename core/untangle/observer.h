@@ -117,6 +117,10 @@ using UntangleEvent =
                  untangle_event::PatchCertified, untangle_event::PatchEnded, untangle_event::FaceNodesMoved,
                  untangle_event::NodesPlaced, untangle_event::PassEnded, untangle_event::Finished>;
 
+/// x: nodes × 3.
+inline untangle_event::Position position_of(const Coordinates& x, Index node) {
+    return {x(node, 0), x(node, 1), x(node, 2)};
+}
 /// The nodes whose positions differ, with those of `after`. For the methods.
 untangle_event::NodesPlaced placed_nodes(untangle_event::Placement placement, const Coordinates& before,
                                          const Coordinates& after);

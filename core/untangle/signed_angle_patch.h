@@ -40,10 +40,6 @@ PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, co
 /// More elements that are not proved valid, or as many and a lower minimum.
 bool is_worse(const QualitySummary& after, const QualitySummary& before);
 
-inline untangle_event::Position position_of(const Coordinates& x, Index node) {
-    return {x(node, 0), x(node, 1), x(node, 2)};
-}
-
 /// Batches of edge nodes, in order; those of one batch share no triangle, so they may be moved at the same time.
 /// Whatever the order within the batches, the result is that of moving the nodes one after the other in the given
 /// order: a node's batch comes after those of all earlier nodes with which it shares a triangle.

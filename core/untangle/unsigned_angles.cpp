@@ -169,7 +169,7 @@ class UnsignedAngleUntangler {
     }
     std::vector<event::Position> positions(const std::vector<Index>& nodes) const {
         std::vector<event::Position> result;
-        for (const Index node : nodes) result.push_back({x_(node, 0), x_(node, 1), x_(node, 2)});
+        for (const Index node : nodes) result.push_back(position_of(x_, node));
         return result;
     }
     std::vector<event::Position> positions(const InteriorEdge& edge, const Eigen::VectorXd& variables) const {

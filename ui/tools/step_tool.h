@@ -2,29 +2,23 @@
 
 #include <memory>
 
+#include "ui/tools/look_tool.h"
 #include "ui/tools/step_marks.h"
-#include "ui/tools/tool.h"
 
 namespace curvewright {
 
 /// Leaves the mouse to the camera; draws what explains the step of a timeline.
-class StepTool : public Tool {
+class StepTool : public LookTool {
     Q_OBJECT
 
   public:
-    using Tool::Tool;
+    using LookTool::LookTool;
 
     /// positions: of the step, nodes × 3. A null step: nothing is drawn.
     void show_step(std::shared_ptr<const StepExplanation> step, const Coordinates& positions);
     /// trial: of the step shown, or null.
     void show_trial(std::shared_ptr<const TrialResult> trial, bool with_contours);
 
-    void enter() override { refresh(); }
-    void leave() override { context_.canvas.show_marks({}, {}); }
-    void hover(const std::optional<PointerEvent>&) override {}
-    bool press(const PointerEvent&) override { return false; }
-    void move(const PointerEvent&) override {}
-    void release(const PointerEvent&) override {}
     void refresh() override;
     QString hint() const override;
 
