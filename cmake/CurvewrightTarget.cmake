@@ -24,3 +24,18 @@ function(curvewright_configure target)
                                     PRIVATE $<BUILD_INTERFACE:curvewright_warnings>)
     set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF)
 endfunction()
+
+# curvewright_precompile(TARGET HEADERS...): headers that many files of a target read are compiled once. Only headers from
+# outside, which do not change; every file includes what it uses all the same, and builds with the option off.
+function(curvewright_precompile target)
+    if(CURVEWRIGHT_PRECOMPILED_HEADERS)
+        target_precompile_headers(${target} PRIVATE ${ARGN})
+    endif()
+endfunction()
+
+# curvewright_reuse_precompiled(TARGET OWNER): with the headers that another target, compiled alike, has compiled.
+function(curvewright_reuse_precompiled target owner)
+    if(CURVEWRIGHT_PRECOMPILED_HEADERS)
+        target_precompile_headers(${target} REUSE_FROM ${owner})
+    endif()
+endfunction()

@@ -154,7 +154,8 @@ class HistogramTest : public QObject {
         QTest::mouseRelease(&test.bars(), Qt::LeftButton, {}, from);
         QCOMPARE(edit.elements(), BarsUnderTest::expected(report, second, second));
         // Moving without a button takes nothing.
-        QMouseEvent idle(QEvent::MouseMove, BarsUnderTest::place(test.bars(), 24), Qt::NoButton, Qt::NoButton, {});
+        const QPointF away = BarsUnderTest::place(test.bars(), 24);
+        QMouseEvent idle(QEvent::MouseMove, away, test.bars().mapToGlobal(away), Qt::NoButton, Qt::NoButton, {});
         QApplication::sendEvent(&test.bars(), &idle);
         QCOMPARE(edit.elements(), BarsUnderTest::expected(report, second, second));
     }
