@@ -186,6 +186,18 @@ std::vector<Facet> find_skin(const MeshTopology& topology, const std::vector<boo
     return skin;
 }
 
+/// Which of some faces are on the mesh's own surface.
+std::vector<bool> find_outer(const MeshTopology& topology, const std::vector<Facet>& facets) {
+    const auto is_before = [](const Facet& a, const Facet& b) {
+        return std::pair(a.element, a.local) < std::pair(b.element, b.local);
+    };
+    std::vector<bool> is_outer;
+    for (const Facet& facet : facets)
+        is_outer.push_back(
+            std::binary_search(topology.boundary_facets().begin(), topology.boundary_facets().end(), facet, is_before));
+    return is_outer;
+}
+
 /// Box of the drawn nodes; false if there is none.
 bool find_box(const std::vector<Index>& nodes, const Coordinates& x, Eigen::RowVector3d& low,
               Eigen::RowVector3d& high) {
@@ -224,8 +236,11 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
         patches.push_back({element, type, 1, static_cast<Index>(patch_nodes_.size()), 0});
         patch_nodes_.insert(patch_nodes_.end(), nodes.begin(), nodes.end());
     };
+    std::vector<bool> face_is_outer;
     if (is_solid_) {
-        for (const Facet& facet : is_shrunk() ? all_facets(topology, visible) : find_skin(topology, visible))
+        const std::vector<Facet> facets = is_shrunk() ? all_facets(topology, visible) : find_skin(topology, visible);
+        if (!visible.empty() && !is_shrunk()) face_is_outer = find_outer(topology, facets);
+        for (const Facet& facet : facets)
             add_patch(faces_, facet.element,
                       reference_element(topology.element_type(facet.element)).facets[facet.local].type,
                       topology.facet_nodes(facet));
@@ -242,15 +257,16 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 
-    find_edges();
+    find_edges(face_is_outer);
     choose_subdivisions(faces_, mesh.coordinates());
     choose_subdivisions(edges_, mesh.coordinates());
     lay_out();
     move(mesh.coordinates());
 }
 
-void Tessellation::find_edges() {
+void Tessellation::find_edges(const std::vector<bool>& face_is_outer) {
     line_is_boundary_.assign(edges_.size(), 1);
+    line_is_rim_.assign(edges_.size(), 0);
     std::vector<CornerKey> keys;
     for (std::size_t face = 0; face < faces_.size(); ++face) {
         const auto& sides = reference_element(faces_[face].type).edges;
@@ -274,6 +290,10 @@ void Tessellation::find_edges() {
             patch_nodes_.push_back(global);
         }
         line_is_boundary_.push_back(end == i + 1 && !is_shrunk() ? 1 : 0);
+        std::size_t outer = 0;
+        for (std::size_t key = i; key < end && !face_is_outer.empty(); ++key)
+            outer += face_is_outer[static_cast<std::size_t>(keys[key].element)] ? 1 : 0;
+        line_is_rim_.push_back(outer == 1 ? 1 : 0);
         i = end;
     }
 }
@@ -347,17 +367,19 @@ void Tessellation::lay_out() {
         return std::tie(edges_[a].type, edges_[a].subdivisions) < std::tie(edges_[b].type, edges_[b].subdivisions);
     });
     std::vector<Patch> sorted;
-    std::vector<std::uint8_t> is_boundary;
+    std::vector<std::uint8_t> is_boundary, is_rim;
     line_offsets_.push_back(0);
     for (std::size_t i : order) {
         sorted.push_back(edges_[i]);
         sorted.back().first_point = line_offsets_.back();
         is_boundary.push_back(line_is_boundary_[i]);
+        is_rim.push_back(line_is_rim_[i]);
         line_elements_.push_back(edges_[i].element);
         line_offsets_.push_back(line_offsets_.back() + edges_[i].subdivisions + 1);
     }
     edges_ = std::move(sorted);
     line_is_boundary_ = std::move(is_boundary);
+    line_is_rim_ = std::move(is_rim);
     edge_points_.resize(3 * static_cast<std::size_t>(line_offsets_.back()));
 }
 

@@ -7,6 +7,7 @@
 
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_window.h"
+#include "ui/scene/label_spacing.h"
 #include "ui/scene/offscreen.h"
 #include "ui/scene/text_font.h"
 
@@ -254,6 +255,25 @@ TEST(Text, IsWholeInTheFontOfTheWindowAndInVtks) {
     if (!found.regular.empty()) {
         EXPECT_TRUE(std::filesystem::is_regular_file(found.regular) && std::filesystem::is_regular_file(found.bold));
     }
+}
+
+TEST(LabelSpacing, TextsGoApartAsFarAsTheyMust) {
+    // Two side by side that overlap by 4 of 20, one far away, two in the same place.
+    std::vector<LabelBox> boxes{{0, 0, 20, 10}, {16, 3, 20, 10}, {200, 0, 20, 10}, {0, 100, 20, 10}, {0, 100, 20, 10}};
+    keep_apart(boxes);
+    EXPECT_NEAR(boxes[1].x - boxes[0].x, 20.0, 1e-9);
+    EXPECT_NEAR(boxes[0].x + boxes[1].x, 16.0, 1e-9);
+    EXPECT_EQ(boxes[0].y, 0.0);
+    EXPECT_EQ(boxes[1].y, 3.0);
+    EXPECT_EQ(boxes[2].x, 200.0);
+    EXPECT_NEAR(boxes[4].y - boxes[3].y, 10.0, 1e-9);
+    // A crowd comes apart as well.
+    std::vector<LabelBox> crowd;
+    for (int i = 0; i < 4; ++i) crowd.push_back({3.0 * i, 2.0 * (i % 2), 20, 10});
+    keep_apart(crowd);
+    for (std::size_t i = 0; i < crowd.size(); ++i)
+        for (std::size_t k = i + 1; k < crowd.size(); ++k)
+            EXPECT_TRUE(std::abs(crowd[i].x - crowd[k].x) > 19.0 || std::abs(crowd[i].y - crowd[k].y) > 9.0);
 }
 
 }  // namespace

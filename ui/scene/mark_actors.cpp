@@ -6,6 +6,8 @@
 #include <vtkActor.h>
 #include <vtkRenderer.h>
 
+#include "ui/scene/label_spacing.h"
+
 namespace curvewright {
 namespace {
 
@@ -22,6 +24,12 @@ bool is_thin(MarkRole role) {
            role == MarkRole::contour || role == MarkRole::path;
 }
 
+/// About how wide a text is, in sizes of its font: signs of UTF-8 are counted, not bytes.
+double width_in_sizes(const std::string& text) {
+    return 0.78 *
+           static_cast<double>(std::count_if(text.begin(), text.end(), [](char c) { return (c & 0xC0) != 0x80; }));
+}
+
 Color mix(const Color& a, const Color& b, double t) {
     Color result{};
     for (std::size_t c = 0; c < 3; ++c) result[c] = a[c] + t * (b[c] - a[c]);
@@ -34,6 +42,11 @@ MarkActors::Text::Text(vtkRenderer* renderer)
     : halo{OverlayText(renderer), OverlayText(renderer), OverlayText(renderer), OverlayText(renderer),
            OverlayText(renderer), OverlayText(renderer), OverlayText(renderer), OverlayText(renderer)},
       text(renderer) {}
+
+void MarkActors::Text::hide() {
+    text.hide();
+    for (OverlayText& its : halo) its.hide();
+}
 
 MarkActors::MarkActors(vtkRenderer* renderer) : renderer_(renderer) {
     for (vtkActor* actor : {halo_.actor(), lines_.actor(), thin_lines_.actor(), small_.actor(), pins_.actor(),
@@ -145,29 +158,30 @@ void MarkActors::draw() {
 
 void MarkActors::place_texts(const ViewMetrics& view) {
     while (texts_.size() < marks_.texts.size()) texts_.push_back(std::make_unique<Text>(renderer_));
-    for (std::size_t i = 0; i < texts_.size(); ++i) {
+    for (const auto& place : texts_) place->hide();
+    const double size = 13.0 * view.pixel_ratio, rim = 1.3 * view.pixel_ratio;
+    std::vector<LabelBox> boxes;
+    std::vector<std::size_t> texts;
+    for (std::size_t i = 0; i < marks_.texts.size(); ++i) {
+        const auto& point = marks_.texts[i].at;
+        const Eigen::Vector4d at = view.project(frame_.to_world({point[0], point[1], point[2]}));
+        if (!(at[3] > 0.0)) continue;
+        boxes.push_back({at[0], at[1], width_in_sizes(marks_.texts[i].text) * size, 1.15 * size});
+        texts.push_back(i);
+    }
+    keep_apart(boxes);
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
         Text& place = *texts_[i];
-        const bool is_wanted = i < marks_.texts.size();
-        Eigen::Vector4d at = Eigen::Vector4d::Zero();
-        if (is_wanted) {
-            const auto& point = marks_.texts[i].at;
-            at = view.project(frame_.to_world({point[0], point[1], point[2]}));
-        }
-        if (!is_wanted || !(at[3] > 0.0)) {
-            place.text.hide();
-            for (OverlayText& halo : place.halo) halo.hide();
-            continue;
-        }
-        const MarkText& mark = marks_.texts[i];
-        const double size = 13.0 * view.pixel_ratio, rim = 1.3 * view.pixel_ratio;
+        const MarkText& mark = marks_.texts[texts[i]];
+        const LabelBox& at = boxes[i];
         place.text.set_font(font_);
         for (std::size_t k = 0; k < place.halo.size(); ++k) {
             place.halo[k].set_font(font_);
             const double angle = 0.25 * 3.14159265358979 * static_cast<double>(k);
-            place.halo[k].show(mark.text, at[0] + rim * std::cos(angle), at[1] + rim * std::sin(angle), size, ground_,
+            place.halo[k].show(mark.text, at.x + rim * std::cos(angle), at.y + rim * std::sin(angle), size, ground_,
                                TextAnchor::center, true);
         }
-        place.text.show(mark.text, at[0], at[1], size, mark.role == MarkRole::angle ? ink_ : color_of(mark.role, 1.0),
+        place.text.show(mark.text, at.x, at.y, size, mark.role == MarkRole::angle ? ink_ : color_of(mark.role, 1.0),
                         TextAnchor::center, true);
     }
 }

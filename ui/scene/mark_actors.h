@@ -36,6 +36,7 @@ class MarkActors {
     /// A text with a halo of the ground's colour: it is written eight times around before it is written.
     struct Text {
         explicit Text(vtkRenderer* renderer);
+        void hide();
         std::vector<OverlayText> halo;
         OverlayText text;
     };

@@ -43,6 +43,19 @@ Polylines select_lines(const Tessellation& tessellation, LineRange range, const 
     return lines;
 }
 
+/// The lines with a flag.
+Polylines select_lines(const Tessellation& tessellation, const std::vector<std::uint8_t>& flags) {
+    Polylines lines;
+    const auto& offsets = tessellation.line_offsets();
+    const auto begin = tessellation.edge_points().begin();
+    for (std::size_t line = 0; line < flags.size(); ++line) {
+        if (flags[line] == 0) continue;
+        lines.points.insert(lines.points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
+        lines.offsets.push_back(static_cast<Index>(lines.points.size() / 3));
+    }
+    return lines;
+}
+
 /// Their points alone, in the same order.
 std::vector<float> select_points(const Tessellation& tessellation, LineRange range, bool on_boundary) {
     std::vector<float> points;
@@ -194,9 +207,9 @@ void MeshDrawing::make_highlight() {
         TessellationOptions its;
         its.min_subdivisions = least_subdivisions(count);
         const Tessellation outline(*mesh_, flags, its);
-        if (count > most_outlined_singly && is_flat())
-            lines = select_lines(outline, all_lines(outline), std::vector<float>(outline.line_elements().size()), true);
-        if (lines.count() == 0) {  // all of a closed surface has no rim
+        if (count > (is_flat() ? most_outlined_singly : most_solids_outlined_singly))
+            lines = select_lines(outline, is_flat() ? outline.line_is_boundary() : outline.line_is_rim());
+        if (lines.count() == 0) {  // all of a closed surface has no rim, nor has what is all inside
             lines.points = outline.edge_points();
             lines.offsets = outline.line_offsets();
         }

@@ -39,8 +39,9 @@ class MeshDrawing {
     SceneOptions options;
     SurfacePainter painter;
     std::vector<Index> highlighted;
-    /// So many of a flat mesh are outlined each on its own; of more, the regions that they make.
-    static inline std::size_t most_outlined_singly = 10000;
+    /// So many of a flat mesh are outlined each on its own; of more, the regions that they make. Sides of solids are
+    /// drawn over each other, so that of more than a few only the rim on the mesh's surface is legible.
+    static inline std::size_t most_outlined_singly = 10000, most_solids_outlined_singly = 40;
 
     bool has_mesh() const { return mesh_ != nullptr; }
     bool is_flat() const { return !mesh_ || mesh_->topology().dimension() < 3; }

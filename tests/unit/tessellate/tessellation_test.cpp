@@ -205,6 +205,28 @@ TEST(Tessellation, FinerToleranceGivesMorePieces) {
     EXPECT_EQ(fine.triangle_elements().size(), 2u * 24u * 24u);  // the bound
 }
 
+/// The half of a cube's tetrahedra below z = 0.5 has a rim of 8 sides at that height (two per side of the square).
+TEST(Tessellation, PartOfASolidHasARimOnItsSurface) {
+    for (int order : {1, 3}) {
+        const CurvedMesh mesh = make_tetrahedra(2, order);
+        std::vector<bool> is_below;
+        for (Index element = 0; element < mesh.topology().element_count(); ++element)
+            is_below.push_back(mesh.element_center(element)[2] < 0.5);
+        const Tessellation part(mesh, is_below);
+        EXPECT_EQ(std::count(part.line_is_rim().begin(), part.line_is_rim().end(), 1), 8);
+        for (std::size_t line = 0; line < part.line_is_rim().size(); ++line)
+            for (Index i = part.line_offsets()[line]; part.line_is_rim()[line] && i < part.line_offsets()[line + 1];
+                 ++i) {
+                const Eigen::RowVector3d at = point(part.edge_points(), part, i);
+                EXPECT_NEAR(at[2], 0.5, 1e-6);
+                EXPECT_NEAR((at.head<2>().array() - 0.5).abs().maxCoeff(), 0.5, 1e-6);
+            }
+        const Tessellation whole(mesh, std::vector<bool>(is_below.size(), true));
+        EXPECT_EQ(std::count(whole.line_is_rim().begin(), whole.line_is_rim().end(), 1), 0);
+        EXPECT_EQ(whole.line_is_rim().size(), whole.line_elements().size());
+    }
+}
+
 TEST(Tessellation, SkinOfTetrahedraIsClosedAndLooksOutward) {
     for (int order : {1, 2, 3}) {
         const CurvedMesh mesh = make_tetrahedra(2, order);
