@@ -341,9 +341,13 @@ class FilmTest : public QObject {
     void a_timeline_that_is_closed_is_no_longer_offered() {
         TimelineFilmUnderTest test;
         test.show_dialog(3);
+        auto* rate = test.find<QSpinBox>("film_per_second");
+        QCOMPARE(rate->value(), 8);
+        rate->setValue(5);
         test.window->action(CommandId::timeline_close)->trigger();
         auto* from = test.find<QComboBox>("film_from");
         QCOMPARE(from->currentText(), QStringLiteral("The mesh as opened"));
+        QCOMPARE(rate->value(), 30);
         QVERIFY(!test.find<QComboBox>("film_level")->isVisible());
         QVERIFY(test.find<QSpinBox>("film_frames")->prefix().isEmpty());
         test.write();
@@ -354,6 +358,7 @@ class FilmTest : public QObject {
         test.window->action(CommandId::timeline_show)->trigger();
         QVERIFY(test.wait_for_job());
         QCOMPARE(from->currentText(), QStringLiteral("The steps of the timeline"));
+        QCOMPARE(rate->value(), 5);
         from->setCurrentIndex(1);
         test.write();
         QCOMPARE(test.picture(3), test.picture_of(test.document().state()));

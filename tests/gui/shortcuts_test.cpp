@@ -240,6 +240,12 @@ class ShortcutsTest : public QObject {
         auto* list = test.find<QListWidget>("palette_list");
         QTest::keyClicks(test.find<QLineEdit>("palette_words"), QStringLiteral("preferences"));
         QVERIFY(list->item(0)->text().contains(QStringLiteral("Ctrl+,")));
+        // What no command answers to is said, and cannot be run.
+        QTest::keyClicks(test.find<QLineEdit>("palette_words"), QStringLiteral(" of a teapot"));
+        QCOMPARE(list->count(), 1);
+        QVERIFY(!(list->item(0)->flags() & Qt::ItemIsEnabled) && !list->currentItem());
+        QTest::keyClick(test.find<QLineEdit>("palette_words"), Qt::Key_Return);
+        QVERIFY(list->isVisible());
     }
 
     void broken_settings_are_passed_over() {

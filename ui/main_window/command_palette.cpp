@@ -81,6 +81,11 @@ void CommandPalette::list_matches() {
         item->setToolTip(help_text(*command));
         item->setData(Qt::UserRole, static_cast<int>(command->id));
     }
+    if (found.empty()) {
+        auto* item = new QListWidgetItem(tr("No command of that kind can be used now."), list_);
+        item->setFlags(Qt::NoItemFlags);
+        return;
+    }
     list_->setCurrentRow(0);
 }
 

@@ -20,7 +20,7 @@ const Command command_list[] = {
     {CommandId::save_as, CommandMenu::file, "save_as", TEXT("Save &as…"), TEXT("Save the mesh under another name"), "", "Ctrl+Shift+S"},
     {CommandId::export_mesh, CommandMenu::file, "export", TEXT("&Export…"), TEXT("Write a copy as VTU (with quality and displacement), MSH or VTK"), "export", "Ctrl+Shift+E", false, false, 1},
     {CommandId::save_picture, CommandMenu::file, "save_picture", TEXT("Save &picture…"), TEXT("Save or copy what the view shows as a picture of any size"), "picture", "F12", false, false, 1},
-    {CommandId::export_film, CommandMenu::file, "export_film", TEXT("Export ani&mation…"), TEXT("Write the way to the present mesh, or the steps of the timeline, as pictures for a video or as an animated WebP"), "", "Shift+F12"},
+    {CommandId::export_film, CommandMenu::file, "export_film", TEXT("Export ani&mation…"), TEXT("Write a film of the way to the present mesh or of the steps of the timeline: pictures for a video, or an animated WebP"), "", "Shift+F12"},
     {CommandId::export_quality, CommandMenu::file, "export_quality", TEXT("Export &histogram…"), TEXT("Write before and after as a table (CSV) or as a drawing (SVG, PNG)"), "", ""},
     {CommandId::report, CommandMenu::file, "report", TEXT("Repor&t…"), TEXT("Write a page about the last untangling: pictures, numbers, what was proved, how it went"), "", ""},
     {CommandId::save_session, CommandMenu::file, "save_session", TEXT("Save sessi&on…"), TEXT("Save everything that was done, for curvewright-cli replay"), "", ""},

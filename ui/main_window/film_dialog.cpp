@@ -115,7 +115,8 @@ FilmDialog::FilmDialog(MeshJobs& jobs, StepPlayer& player, MeshView& view,
                            tr("every step of every patch, with the patch in focus outlined.")}});
     level_->setCurrentIndex(level_->findData(saved("level", static_cast<int>(player.level())).toInt()));
     frames_ = make_count("film_frames", 2, 2000, saved("frames", 60).toInt());
-    per_second_ = make_count("film_per_second", 1, 120, saved("per_second", 30).toInt());
+    rates_ = {saved("per_second", 30).toInt(), saved("steps_per_second", 8).toInt()};
+    per_second_ = make_count("film_per_second", 1, 120, rates_[0]);
     per_second_->setSuffix(tr(" per second"));
     duration_ = make_label(QString(), "muted");
     duration_->setObjectName(QStringLiteral("film_duration"));
@@ -380,7 +381,16 @@ void FilmDialog::refresh() {
     video_button_->setEnabled(!makes_video);
 }
 
+void FilmDialog::choose_rate() {
+    if (rate_is_of_timeline_ == shows_timeline()) return;
+    rates_[rate_is_of_timeline_ ? 1 : 0] = per_second_->value();
+    rate_is_of_timeline_ = shows_timeline();
+    const QSignalBlocker blocker(per_second_);
+    per_second_->setValue(rates_[rate_is_of_timeline_ ? 1 : 0]);
+}
+
 void FilmDialog::change() {
+    choose_rate();
     result_->hide();
     refresh();
     const QString problem = why_not();
@@ -492,7 +502,7 @@ void FilmDialog::remember() const {
     QSettings settings;
     settings.setValue(setting("frames"), frames_->value());
     if (shows_timeline()) settings.setValue(setting("level"), level_->currentData());
-    settings.setValue(setting("per_second"), per_second_->value());
+    settings.setValue(setting(shows_timeline() ? "steps_per_second" : "per_second"), per_second_->value());
     settings.setValue(setting("animated"), is_animation());
     settings.setValue(setting("quality"), quality_->value());
     settings.setValue(setting("lossless"), lossless_->isChecked());

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 
@@ -52,6 +53,8 @@ class FilmDialog : public QDialog {
     bool shows_timeline() const;
     int frame_count() const;
     void change();
+    /// Steps are to be seen one by one, a motion is to be smooth: each has a rate of its own.
+    void choose_rate();
     void refresh();
     void start();
     QImage draw(const Frame& frame);
@@ -75,6 +78,8 @@ class FilmDialog : public QDialog {
     QString video_;
 
     QComboBox *from_ = nullptr, *level_ = nullptr, *format_ = nullptr;
+    std::array<int, 2> rates_{};  ///< of a motion, of the steps of a timeline
+    bool rate_is_of_timeline_ = false;
     QSpinBox *frames_ = nullptr, *per_second_ = nullptr, *quality_ = nullptr;
     QCheckBox *back_ = nullptr, *transparent_ = nullptr, *lossless_ = nullptr, *legend_ = nullptr, *caption_ = nullptr;
     QLabel *duration_ = nullptr, *message_ = nullptr;
