@@ -17,6 +17,9 @@
 /// Functions throw curvewright::Error, whose what() is one sentence. Those that can take long have a TaskContext as
 /// their last parameter, for progress and cancellation. examples/ has complete programs.
 
+/// \namespace curvewright
+/// The library. Coordinates are in the mesh's unit of length; indices begin at 0, tags are the file's.
+
 #include "core/base/error.h"
 #include "core/base/ids.h"
 #include "core/base/parallel.h"

@@ -6,5 +6,7 @@ run_packages=(g++ cmake ninja-build libvtk9-dev qt6-base-dev libqt6opengl6-dev q
               qt6-qpa-plugins libqt6svg6 fonts-dejavu-core)
 # To make packages.
 package_packages=(dpkg-dev file gzip)
+# To make the documentation.
+docs_packages=(doxygen)
 # To test: the framework, a display without a screen, and what makes packages.
 test_packages=(libgtest-dev xvfb xauth "${package_packages[@]}")

@@ -16,14 +16,18 @@ struct Tag {
     friend auto operator<=>(const Tag&, const Tag&) = default;
 };
 
+/// The number of a node in a file.
 using NodeTag = Tag<struct NodeKind>;
+/// The number of an element in a file.
 using ElementTag = Tag<struct ElementKind>;
 
 }  // namespace curvewright
 
+/// \cond
 template <class Kind>
 struct std::hash<curvewright::Tag<Kind>> {
     std::size_t operator()(const curvewright::Tag<Kind>& tag) const noexcept {
         return std::hash<std::int64_t>{}(tag.value);
     }
 };
+/// \endcond

@@ -27,6 +27,7 @@ class Sha256 {
     std::uint64_t length_ = 0;  ///< bytes
 };
 
+/// Of a text: 64 hexadecimal digits, lower case.
 std::string sha256(std::string_view text);
 /// Of the bytes of a file as they are (a compressed one is not unpacked). Throws InvalidInput that names the file.
 std::string sha256_of_file(const std::filesystem::path& file);

@@ -84,6 +84,7 @@ class BernsteinForm {
     std::vector<double> multinomials_;
 };
 
+/// Matrix of extended precision (64 bits of mantissa where the machine has them).
 using ExtendedMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 /// Bézier coefficients from nodal values: size × nodes, nodes in this program's order. Silvester's functions are

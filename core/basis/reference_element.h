@@ -35,6 +35,7 @@ struct ReferenceElement {
     int find_node(LatticePoint point) const;
 };
 
+/// The one of a type; made at the first call. Safe to call from several threads at once.
 const ReferenceElement& reference_element(ElementType type);
 
 }  // namespace curvewright

@@ -17,6 +17,7 @@ enum class BoundaryMode {
 
 /// Modes of the boundary: one for all of it, and others for named groups.
 struct BoundaryRules {
+    /// The mode of a named group.
     struct Rule {
         std::string group;
         BoundaryMode mode = BoundaryMode::fixed;

@@ -10,16 +10,20 @@
 
 namespace curvewright {
 
+/// A point or a vector, in the mesh's unit of length.
 using Vector3 = std::array<double, 3>;
 
+/// x += vector
 struct Translate {
     Vector3 vector{};
 };
+/// Rotation about an axis through the centre.
 struct Rotate {
     Vector3 center{};
     double angle_deg = 0.0;  ///< right-handed about the axis
     Vector3 axis{0.0, 0.0, 1.0};
 };
+/// x = center + factors · (x - center), each coordinate by its own factor.
 struct Scale {
     Vector3 center{};
     Vector3 factors{1.0, 1.0, 1.0};
@@ -38,6 +42,7 @@ struct SnapToCircle {
     Vector3 center{};
     double radius = 1.0;
 };
+/// Radial projection.
 struct SnapToSphere {
     Vector3 center{};
     double radius = 1.0;
@@ -66,9 +71,11 @@ struct SnapToNaca {
     double thickness = 0.12;  ///< fraction of the chord
 };
 
+/// What one operation does.
 using OperationKind = std::variant<Translate, Rotate, Scale, Shear, Expression, SnapToCircle, SnapToSphere,
                                    SnapToCylinder, SnapToRevolution, SnapToEllipse, SnapToNaca>;
 
+/// An operation on all nodes of a physical group; "boundary" and "all" are groups, too.
 struct Operation {
     std::string group;
     OperationKind kind;
@@ -81,6 +88,7 @@ struct OperationList {
 
 /// Final positions of some nodes, by tag.
 struct NodeTable {
+    /// A node and where it goes.
     struct Row {
         NodeTag tag;
         Vector3 position{};

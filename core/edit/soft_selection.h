@@ -14,10 +14,12 @@ enum class Falloff {
     linear,  ///< 1 - t
     sharp,   ///< (1 - t)^2
 };
+/// "smooth", "sphere", "root", "linear", "sharp".
 const char* to_string(Falloff falloff);
 /// t >= 0; 0 from t = 1 on.
 double falloff_weight(Falloff falloff, double t);
 
+/// How far a selection reaches, and how its hold falls off.
 struct SoftSelection {
     double radius = 0.0;  ///< mesh units; 0 = the selected nodes alone
     Falloff falloff = Falloff::smooth;

@@ -9,6 +9,7 @@
 
 namespace curvewright {
 
+/// How an animation is written.
 struct AnimationOptions {
     int width = 0, height = 0;       ///< pixels, 1 to AnimationFile::max_side
     double frames_per_second = 30.;  ///< at most AnimationFile::max_rate

@@ -11,10 +11,12 @@
 
 namespace curvewright {
 
+/// MSH 2.2, MSH 4.1, VTK XML, legacy VTK.
 enum class MeshFormat { msh2, msh4, vtu, vtk };
 /// "msh2", "msh4", "vtu", "vtk".
 const char* to_string(MeshFormat format);
 
+/// What a mesh file holds.
 struct ReadResult {
     CurvedMesh mesh;
     MeshFormat format = MeshFormat::msh4;
@@ -31,6 +33,7 @@ struct ReadResult {
 /// binary MSH, serendipity elements, and the like. Polls context.stop.
 ReadResult read_mesh(const std::filesystem::path& file, const TaskContext& context = {});
 
+/// How a mesh is written, and what with it.
 struct WriteOptions {
     /// Not given: the suffix tells; .msh is 4.1.
     std::optional<MeshFormat> format;

@@ -15,6 +15,7 @@ struct MshFamily {
     std::vector<int> numbers;
 };
 
+/// Gmsh's numbers of all shapes.
 inline const std::array<MshFamily, 8>& msh_families() {
     static const std::array<MshFamily, 8> families = {{
         {Shape::vertex, {15}},

@@ -11,6 +11,7 @@
 
 namespace curvewright {
 
+/// Sparse matrix, compressed by rows.
 using SparseRows = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 /// A sparse matrix of small square blocks, compressed by rows: one block row per node of a mesh, one row and column of

@@ -5,11 +5,13 @@
 
 namespace curvewright {
 
+/// When a Krylov method stops.
 struct KrylovOptions {
     double tolerance = 1e-12;  ///< of the residual relative to the right-hand side, in the 2-norm
     int max_iterations = 500;
 };
 
+/// How a Krylov method ended.
 struct KrylovResult {
     int iterations = 0;     ///< largest over the right-hand sides
     double residual = 0.0;  ///< largest relative residual, computed from the solution

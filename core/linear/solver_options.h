@@ -4,7 +4,9 @@
 
 namespace curvewright {
 
+/// Which solver is taken; automatic: the iterative one, and the direct one for few unknowns and where that fails.
 enum class SolverChoice { automatic, direct, iterative };
+/// "auto", "direct", "iterative".
 const char* to_string(SolverChoice solver);
 
 /// Order of elimination of a direct factorisation.
@@ -13,6 +15,7 @@ enum class Ordering {
     minimum_degree,     ///< COLAMD for general, AMD for symmetric matrices: what the thesis uses
 };
 
+/// How a linear system is solved.
 struct SolverOptions {
     SolverChoice choice = SolverChoice::automatic;
     Ordering ordering = Ordering::nested_dissection;
@@ -20,6 +23,7 @@ struct SolverOptions {
     int max_iterations = 500;
 };
 
+/// How a linear system was solved.
 struct SolveReport {
     SolverChoice solver = SolverChoice::iterative;  ///< the one that gave the result
     std::string note;                               ///< which and why, one sentence

@@ -16,6 +16,7 @@ struct NodeElements {
         return std::span(elements).subspan(offsets[node], offsets[node + 1] - offsets[node]);
     }
 };
+/// The elements of every node of a mesh.
 NodeElements elements_of_nodes(const MeshTopology& topology);
 
 }  // namespace curvewright

@@ -7,6 +7,7 @@
 
 namespace curvewright {
 
+/// Where a minimisation by BFGS begins and ends.
 struct BfgsOptions {
     int max_iterations = 100;
     /// Ends when the gradient's norm is at most this.
@@ -26,6 +27,7 @@ struct BfgsState {
     double step = 0.0;  ///< fraction of the quasi-Newton step that was taken; 0 at the start
 };
 
+/// How a minimisation by BFGS ended; where stands in the caller's x.
 struct BfgsResult {
     double value = 0.0;
     int iterations = 0;

@@ -9,6 +9,7 @@
 
 namespace curvewright {
 
+/// When a minimisation by L-BFGS stops, and what it remembers.
 struct LbfgsOptions {
     int max_iterations = 100;
     int history = 8;
@@ -19,6 +20,7 @@ struct LbfgsOptions {
     int max_line_search = 20;
 };
 
+/// Why a minimisation by L-BFGS ended.
 enum class LbfgsStop {
     converged,  ///< the objective falls no more, or the gradient is zero
     iteration_limit,
@@ -26,6 +28,7 @@ enum class LbfgsStop {
     stopped,  ///< the caller's callback asked for it
 };
 
+/// How a minimisation by L-BFGS ended.
 struct LbfgsResult {
     double value = 0.0;
     int iterations = 0, evaluations = 0;

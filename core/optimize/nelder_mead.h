@@ -7,6 +7,7 @@
 
 namespace curvewright {
 
+/// When a minimisation by Nelder-Mead stops.
 struct NelderMeadOptions {
     int max_iterations = 400;
     /// The iteration ends when the spread of the values and the largest coordinate distance to the best vertex are both
@@ -14,12 +15,14 @@ struct NelderMeadOptions {
     double tolerance = 1e-4;
 };
 
+/// The simplex after an iteration, with the function's values.
 template <int Dim>
 struct NelderMeadSimplex {
     std::array<std::array<double, Dim>, Dim + 1> vertices{};  ///< best first
     std::array<double, Dim + 1> values{};
 };
 
+/// How a minimisation by Nelder-Mead ended.
 template <int Dim>
 struct NelderMeadResult {
     std::array<double, Dim> point{};

@@ -13,6 +13,7 @@ namespace curvewright {
 /// shrink (Johnen, Remacle, Geuzaine, J. Comput. Phys. 233, 2013). One object per thread: it owns work space.
 class BernsteinMinimizer {
   public:
+    /// What is known of a minimum.
     struct Result {
         double attained = 0.0;  ///< value at `point`, up to `error`
         double bound = 0.0;     ///< proved lower bound of the minimum

@@ -25,8 +25,10 @@ enum class Orientation {
     negative,  ///< every element is numbered the other way round: J < 0 expected. Not tangling; see flip_orientation.
     mixed,  ///< some straight-sided elements are positive, some negative; judged as positive unless most are negative
 };
+/// "positive", "negative", "mixed".
 const char* to_string(Orientation orientation);
 
+/// How closely elements are judged.
 struct QualityOptions {
     /// The bounds of min J and of max J are refined until they are this close, relative to max |J| of the element.
     double tolerance = 2.5e-4;
@@ -50,12 +52,14 @@ struct ElementQuality {
     std::array<double, 3> worst_point{};
 };
 
+/// The quality of a mesh in a few numbers.
 struct QualitySummary {
     double min = 0.0, mean = 0.0, max = 0.0;  ///< of the scaled Jacobian, over all elements
     Index valid = 0, invalid = 0, undecided = 0;
     Index elements() const { return valid + invalid + undecided; }
 };
 
+/// The certified quality of a mesh.
 struct QualityReport {
     std::vector<ElementQuality> elements;  ///< one per element, in the order of the mesh
     QualitySummary summary;
@@ -106,6 +110,7 @@ struct Histogram {
     double bin_width() const { return (upper - lower) / static_cast<double>(counts.size()); }
     int bin_of(double value) const;
 };
+/// Histogram of the scaled Jacobian of all elements.
 Histogram make_histogram(const QualityReport& report, double lower, double upper, int bins);
 
 }  // namespace curvewright

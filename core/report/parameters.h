@@ -20,6 +20,7 @@ struct ReportParameter {
 std::string method_name(const UntangleOptions& options);
 /// "Guaranteed method" and the like, for people, and how it works, one sentence.
 std::string method_title(const UntangleOptions& options);
+/// How the method works, one sentence.
 std::string method_description(const UntangleOptions& options);
 /// All that the result depends on.
 std::vector<ReportParameter> parameters_of(const UntangleOptions& options);

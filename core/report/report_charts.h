@@ -21,10 +21,12 @@ std::string hatch_svg(const ReportColors& colors);
 std::string histogram_svg(const ReportHistogram& histogram, Index highest, const ReportColors& colors,
                           const std::string& title);
 
+/// A polyline of a chart.
 struct ChartLine {
     std::vector<std::pair<double, double>> points;  ///< x ascending
     bool is_accent = false;                         ///< drawn last, and strongly
 };
+/// Lines over a common axis.
 struct Chart {
     std::string title, x_label;
     std::vector<ChartLine> lines;

@@ -9,7 +9,9 @@
 
 namespace curvewright {
 
+/// Names of the files of a report.
 constexpr const char* report_html_name = "report.html";
+/// The same numbers for programs.
 constexpr const char* report_json_name = "report.json";
 
 /// Throws InvalidInput, one sentence, if a report cannot be put into that folder: something else of that name, no

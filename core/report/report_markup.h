@@ -18,6 +18,7 @@ std::string count_text(long long value);
 /// "0.0042 s", "12.3 s".
 std::string seconds_text(double seconds);
 
+/// RFC 4648, without line breaks.
 std::string base64(std::string_view bytes);
 
 }  // namespace curvewright

@@ -18,6 +18,7 @@ struct PictureWish {
 /// The whole mesh, the elements that were worst and those that are worst now: each before and after, in this order.
 std::vector<PictureWish> picture_wishes(const RunReport& report);
 
+/// The pictures of a report.
 struct ReportPictures {
     std::vector<std::string> png;  ///< one per wish, or none at all
     std::string note;              ///< why there are none; "" otherwise

@@ -31,6 +31,7 @@ struct ReportHistogram {
     std::vector<Index> valid, undecided;  ///< bins each
     Index highest() const;
 };
+/// Counts the elements of a mesh.
 ReportHistogram make_report_histogram(const QualityReport& report);
 
 /// The quality of a mesh in numbers.
@@ -47,6 +48,7 @@ struct ReportGroup {
     QualitySummary before, after;
 };
 
+/// An element that a report tells of by itself.
 struct ReportElement {
     Index element = 0;
     std::int64_t tag = 0;
@@ -127,6 +129,7 @@ struct ReportSource {
     const ConvergenceLog& log;
     std::vector<std::pair<std::string, double>> timings;
 };
+/// Makes the report, but for its pictures. Throws Cancelled.
 RunReport collect_report(const ReportSource& source, const TaskContext& context = {});
 
 /// The outcome in one sentence or two, for a reader who reads nothing else.

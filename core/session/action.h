@@ -28,6 +28,7 @@ struct WarpAction {
     WarpOptions options;
     std::optional<IncrementOptions> increments;
 };
+/// The mesh is untangled.
 struct UntangleAction {
     UntangleOptions options;
 };
@@ -47,6 +48,7 @@ struct DragAction {
 };
 /// Nodes are put somewhere: what cannot be computed again, such as an untangling that was stopped.
 struct PlaceAction {
+    /// A node and where it goes.
     struct Row {
         NodeTag node;
         Vector3 position{};
@@ -58,6 +60,7 @@ struct HistoryAction {
     int step = 0;
 };
 
+/// One thing that was done.
 using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, FlipAction, DragAction, PlaceAction,
                             HistoryAction>;
 

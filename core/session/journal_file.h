@@ -41,6 +41,7 @@ std::uint64_t fingerprint(const MeshTopology& topology);
 
 // Records. number: 0 for the head, 1 more for every following one.
 
+/// The first record: what was opened, and its positions.
 std::string journal_head(const JournalHead& head, const Coordinates& opened);
 /// A step that was done when `at` steps were done; what had been undone is gone. Positions are told as those that
 /// differ from before, bit by bit.
@@ -64,6 +65,7 @@ struct JournalSummary {
 
 /// All of a journal.
 struct JournalContent {
+    /// A step with the state that it leads to.
     struct Step : JournalStep {
         Coordinates positions;  ///< after it
     };

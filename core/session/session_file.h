@@ -20,6 +20,7 @@ Action parse_action(std::string_view line, const std::string& file = "session", 
 
 /// A whole session; empty lines are passed over. Throws InvalidInput that names the file and the line.
 std::vector<Action> parse_session(std::string_view text, const std::string& file);
+/// The same of a file. Throws InvalidInput that names it.
 std::vector<Action> read_session(const std::filesystem::path& file);
 /// Whether a .json file is a session, by its first line (deformations are JSON as well). False if it cannot be read.
 bool is_session_file(const std::filesystem::path& file);

@@ -16,6 +16,7 @@ struct CuttingPlane {
     double distance(const Eigen::RowVector3d& point) const { return normal.dot(point) - offset; }
 };
 
+/// How finely a section is drawn.
 struct PlaneCutOptions {
     /// Largest distance between the section of a curved face and its chords, relative to the diagonal of the mesh's
     /// bounding box.

@@ -8,6 +8,7 @@
 
 namespace curvewright {
 
+/// How finely curved elements are drawn.
 struct TessellationOptions {
     /// Largest distance between a curved side and its chords, relative to the diagonal of the mesh's bounding box.
     double chord_tolerance = 2e-4;

@@ -55,6 +55,7 @@ class PatchTrial {
                         const Eigen::RowVector3d& up, int resolution, const TrialParameters& parameters,
                         const TaskContext& context = {});
 
+    /// What the method would do with the node in focus.
     struct Outcome {
         Eigen::RowVector3d position;           ///< of the node in focus at the minimum
         std::vector<Eigen::RowVector3d> path;  ///< to it

@@ -11,6 +11,7 @@
 
 namespace curvewright {
 
+/// Where a recording is kept.
 struct RecorderOptions {
     /// Bytes of steps that are held in memory; the others go to a temporary file.
     std::size_t memory_limit = std::size_t{64} << 20;

@@ -16,6 +16,7 @@ enum class StepLevel {
 };
 /// The next or previous step of that level; the last or first step where there is none.
 StepNumber step_after(const Recording& recording, StepNumber step, StepLevel level);
+/// The previous step of that level; the first one where there is none.
 StepNumber step_before(const Recording& recording, StepNumber step, StepLevel level);
 
 /// Where most elements are not valid and, of such steps, the scaled Jacobian is least; the first one.

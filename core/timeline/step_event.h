@@ -40,6 +40,7 @@ using StepEvent =
                  untangle_event::PatchCertified, untangle_event::PatchEnded, untangle_event::FaceNodesMoved,
                  untangle_event::NodesPlaced, untangle_event::PassEnded, untangle_event::Finished, WarpIncrement>;
 
+/// What kind of event it is.
 inline StepKind kind_of(const StepEvent& event) {
     return static_cast<StepKind>(event.index());
 }

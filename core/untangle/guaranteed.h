@@ -10,6 +10,7 @@
 
 namespace curvewright {
 
+/// Options of untangle_guaranteed().
 struct GuaranteedOptions {
     /// Layers of elements around the damage whose nodes may move; doubled, up to max_layers, where they do not suffice.
     int layers = 2, max_layers = 16;
@@ -50,6 +51,7 @@ struct UnmendedElement {
     double bound = 0.0;
 };
 
+/// What untangle_guaranteed() returns.
 struct GuaranteedResult {
     Coordinates coordinates;
     std::vector<UnmendedElement> unmended;    ///< empty: every element is proved valid

@@ -16,16 +16,20 @@ enum class StopReason {
     no_progress,  ///< the last pass lowered the certified quality and was taken back
     cancelled,    ///< stopped by the user; the best state so far was kept
 };
+/// "converged", "untangled", "pass limit", "no progress", "cancelled".
 const char* to_string(StopReason reason);
 
 /// The steps of an untangling, in the order in which they happen. Positions are (x, y) or (x, y, z) in mesh units.
 namespace untangle_event {
 
+/// Coordinates in the mesh's unit; z is 0 or the plane's in 2D.
 using Position = std::array<double, 3>;
 
+/// An untangling begins.
 struct Started {
     const CurvedMesh* mesh = nullptr;  ///< valid during the call
 };
+/// A pass over the mesh begins.
 struct PassBegan {
     int pass = 0;  ///< from 1
 };
@@ -72,6 +76,7 @@ struct PatchCertified {
     Index worst_element = 0;              ///< where it is attained
     std::array<double, 3> worst_point{};  ///< its reference coordinates
 };
+/// The nodes of the patch stay where they are now.
 struct PatchEnded {
     std::vector<Index> nodes;
     std::vector<Position> positions;
@@ -85,10 +90,12 @@ struct FaceNodesMoved {
     std::vector<Index> nodes;
     std::vector<Position> positions;
 };
+/// Why nodes were put somewhere.
 enum class Placement {
     straightened,  ///< within a patch: an edge begins straight instead of as it is
     put_back,      ///< to an earlier, better state, at the end of a pass
 };
+/// "straightened", "put back".
 const char* to_string(Placement placement);
 /// Nodes were put somewhere.
 struct NodesPlaced {
@@ -104,6 +111,7 @@ struct PassEnded {
     Index invalid = 0, undecided = 0;
     const Coordinates* coordinates = nullptr;  ///< valid during the call
 };
+/// An untangling has ended.
 struct Finished {
     StopReason reason = StopReason::converged;
     int passes = 0;
@@ -111,6 +119,7 @@ struct Finished {
 
 }  // namespace untangle_event
 
+/// One step of an untangling.
 using UntangleEvent =
     std::variant<untangle_event::Started, untangle_event::PassBegan, untangle_event::PatchBegan,
                  untangle_event::SimplexStep, untangle_event::BfgsStep, untangle_event::EnergyStep,

@@ -37,6 +37,7 @@ class BestOfPatch {
 
 /// Positions of some nodes, one row each; feet of those of them that slide.
 Coordinates positions_of(const std::vector<Index>& nodes, const Coordinates& x);
+/// Feet of those of the nodes that slide; empty if there are none at all.
 std::vector<Foot> feet_of(const std::vector<Index>& nodes, const std::vector<Foot>& feet);
 
 /// Worst mean ratio of a patch's elements against the straight-sided elements of the ideal (see assess_shape).

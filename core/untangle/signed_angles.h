@@ -13,11 +13,13 @@ enum class DisplacementUnit {
     edge_length,  ///< the distance of the edge's end points: the result does not depend on the mesh's unit
 };
 
+/// How beta of (4.1) is found.
 enum class BetaChoice {
     given,      ///< SignedAngleOptions::beta for every node: Alg. 6
     automatic,  ///< for every edge the beta that gives the best certified quality
 };
 
+/// Options of untangle_signed_angles().
 struct SignedAngleOptions {
     BetaChoice beta_choice = BetaChoice::given;
     /// Weight of the angle term against the displacement term, in (0, 1]; stretched layers want small values (thesis

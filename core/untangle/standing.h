@@ -7,6 +7,7 @@
 
 namespace curvewright {
 
+/// Whether the element is proved valid.
 inline bool is_valid(const ElementQuality& quality) {
     return quality.validity == Validity::valid;
 }

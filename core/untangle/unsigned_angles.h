@@ -8,11 +8,13 @@
 
 namespace curvewright {
 
+/// How the gradient of the sum of angles is computed.
 enum class AngleGradient {
     exact,
     central_differences,  ///< of sixth order: the thesis's choice, some ten times slower
 };
 
+/// Options of untangle_unsigned_angles(); as they are, the method is better than the thesis's, see literal().
 struct UnsignedAngleOptions {
     AngleGradient gradient = AngleGradient::exact;
     int max_passes = 20;

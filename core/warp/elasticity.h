@@ -6,6 +6,7 @@
 
 namespace curvewright {
 
+/// What the elastic body is made of.
 struct ElasticMaterial {
     double poisson_ratio = 0.33;  ///< in (-1, 0.5)
     double stiffening = 0.0;      ///< Young's modulus of an element = (its volume / the largest)^-stiffening

@@ -16,6 +16,7 @@ namespace curvewright {
 /// read.
 using BoundaryPath = std::function<Coordinates(double fraction)>;
 
+/// How a motion is cut into increments.
 struct IncrementOptions {
     /// Equal steps; 0 = automatic: as far as goes at once, half of it where elements tangle, and longer again
     /// afterwards.
@@ -37,6 +38,7 @@ struct IncrementStep {
 /// Is told of every state tried, accepted or not, with its positions, on the thread that warps.
 using IncrementObserver = std::function<void(const IncrementStep& step, const Coordinates& coordinates)>;
 
+/// How a warp in increments went.
 struct IncrementReport {
     std::vector<IncrementStep> steps;  ///< in the order tried
     double fraction = 0.0;             ///< reached with every element valid
@@ -48,6 +50,7 @@ struct IncrementReport {
     bool is_complete() const { return fraction == 1.0; }
 };
 
+/// What warp_in_increments() returns.
 struct IncrementalResult {
     Coordinates coordinates;  ///< the last valid state
     WarpReport report;        ///< of the last warp; times are sums

@@ -19,6 +19,7 @@ enum class NeighbourKind {
     /// close to the edge of their hull.
     edge_connected,
 };
+/// Name of the kind, as options have it.
 const char* to_string(NeighbourKind kind);
 
 /// Neighbours of the free nodes, one set per node.

@@ -13,12 +13,14 @@
 
 namespace curvewright {
 
+/// How the interior follows the boundary.
 enum class Weighting {
     convex,   ///< positive weights, maximum of sum c log w (thesis 2.14-2.18, where c = 1)
     affine,   ///< minimum of sum w^2 / c (thesis 2.6-2.9, where c = 1: least 2-norm)
     elastic,  ///< no weights: the mesh is a linearly elastic body, its boundary is moved (see assemble_elasticity)
     custom,   ///< the caller's own, WarpOptions::custom_weights
 };
+/// "convex", "affine", "elastic", "custom".
 const char* to_string(Weighting weighting);
 
 /// What to do with a node for which the weights do not exist: convex ones, because it lies on or outside the hull of
@@ -28,6 +30,7 @@ enum class OutsideHull {
     refuse,  ///< throws SolverFailure that names it
 };
 
+/// Options of a warp.
 struct WarpOptions {
     Weighting weighting = Weighting::convex;
     /// Influence of a neighbour at distance r that shares n elements with the node: c = r^-distance_power
@@ -62,6 +65,7 @@ struct WarpOptions {
     bool condense = true;
 };
 
+/// How a warp went.
 struct WarpReport {
     Index interior_nodes = 0;   ///< that followed: without the prescribed ones, with the following ones of the boundary
     Index condensed_nodes = 0;  ///< of them eliminated beforehand
@@ -78,6 +82,7 @@ struct WarpReport {
     double neighbours_seconds = 0.0, weights_seconds = 0.0, solve_seconds = 0.0;
 };
 
+/// What a warp returns.
 struct WarpResult {
     Coordinates coordinates;
     WarpReport report;

@@ -48,6 +48,7 @@ struct InfluenceOptions {
 /// that the neighbour shares with the node. offsets: neighbours × dimension. Both powers 0 give ones: the thesis's
 /// weights. The distance's part is kept within a factor of 1000 of the influence at the mean distance. Mean 1.
 Eigen::VectorXd influences(const Eigen::Ref<const Eigen::MatrixXd>& offsets, double distance_power);
+/// The same, with the elements that are shared.
 Eigen::VectorXd influences(const Patch& patch, const InfluenceOptions& options);
 
 /// Affine weights that minimise sum w_j^2 / c_j; for c = 1 those of least 2-norm (thesis 2.6-2.9): w = C A^T (A C
@@ -69,6 +70,7 @@ PatchStatus convex_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
 /// The weightings of this library as functions of a patch. Where convex weights do not exist they give affine ones, and
 /// the status says so.
 WeightFunction convex_weighting(double distance_power, double sharing_power = 0.0);
+/// Affine weights; see affine_weights().
 WeightFunction affine_weighting(double distance_power, double sharing_power = 0.0);
 
 /// Weights of all free nodes, one per entry of sets.nodes.
