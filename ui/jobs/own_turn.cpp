@@ -1,4 +1,4 @@
-#include "ui/main_window/own_turn.h"
+#include "ui/jobs/own_turn.h"
 
 #include <deque>
 #include <utility>
