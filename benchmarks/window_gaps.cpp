@@ -176,11 +176,13 @@ class Script {
     }
 
     bool is_settled() {
-        return !window_.jobs().runner().is_running() && !window_.view().has_frame_under_way() && !is_saving_picture();
-    }
-    bool is_saving_picture() const {
+        if (window_.jobs().runner().is_running()) return false;
+        for (const char* name : {"mesh_view", "before_view"}) {
+            const auto* view = window_.findChild<MeshView*>(QLatin1String(name));
+            if (view->isVisible() && view->has_frame_under_way()) return false;
+        }
         const auto* dialog = window_.findChild<PictureDialog*>();
-        return dialog && dialog->is_busy();
+        return !dialog || (!dialog->is_busy() && !dialog->is_drawing_preview());
     }
 
     void measure(const char* name, const std::function<void()>& act) {

@@ -1,6 +1,7 @@
 /// The document, the jobs and the texts, without the window.
 
 #include <QFile>
+#include <QSemaphore>
 #include <QSignalSpy>
 #include <QTextStream>
 #include <QUndoStack>
@@ -92,6 +93,27 @@ class DocumentTest : public QObject {
         QVERIFY(!document.history()->canUndo());
         document.close();
         QVERIFY(!document.has_mesh());
+    }
+
+    void what_a_window_could_not_hear_in_time_is_told_once() {
+        JobRunner runner;
+        QList<double> told;
+        QObject later;
+        connect(&runner, &JobRunner::progress, [&](const QString&, double fraction) {
+            told << fraction;
+            // The end comes in a turn of its own: what else is due is not kept waiting by both.
+            QMetaObject::invokeMethod(
+                &later, [&] { told << (runner.is_running() ? 2.0 : 3.0); }, Qt::QueuedConnection);
+        });
+        QSemaphore said;
+        QVERIFY(runner.start(QStringLiteral("job"), [&said](const TaskContext& context) {
+            for (const char* phase : {"a", "b", "c"}) context.report(phase, 0.25 * (phase[0] - 'a' + 1));
+            said.release();
+            return [] {};
+        }));
+        said.acquire();
+        QTRY_VERIFY(!runner.is_running());
+        QCOMPARE(told, QList<double>({0.75, 2.0}));
     }
 
     void job_runs_one_at_a_time_and_reports() {

@@ -236,6 +236,56 @@ class LookingTest : public QObject {
         later.toggle(CommandId::worst_only);
     }
 
+    void other_sizes_are_drawn_once() {
+        LookingUnderTest test;
+        MeshView& view = test.view();
+        QVERIFY(QTest::qWaitFor([&] { return !view.has_frame_under_way(); }));
+        const QSize first = view.size();
+        QSignalSpy drawn(&view, &MeshView::frame_drawn);
+        for (const int step : {10, 20, 30}) view.resize(first + QSize(step, step));
+        QCOMPARE(drawn.count(), 0);
+        QTRY_COMPARE(drawn.count(), 1);
+        QCOMPARE(view.grabFramebuffer().size(), view.device_size());
+        QCOMPARE(view.picture(1).size(), view.device_size());
+    }
+
+    void until_another_size_is_drawn_the_middle_of_the_picture_stays() {
+        LookingUnderTest test;
+        MeshView& view = test.view();
+        view.set_drawing_mode(DrawingMode::behind);
+        const auto is_settled = [&] { return !view.has_frame_under_way(); };
+        QVERIFY(QTest::qWaitFor(is_settled));
+        const QSize first = view.size();
+        const QImage picture = view.grabFramebuffer();
+        view.resize(first - QSize(60, 40));
+        const QImage smaller = view.grabFramebuffer();
+        QCOMPARE(smaller.size(), picture.size() - QSize(60, 40));
+        QCOMPARE(differing(smaller, picture.copy(30, 20, smaller.width(), smaller.height())), 0);
+        QVERIFY(QTest::qWaitFor(is_settled));
+        view.resize(first);
+        QVERIFY(QTest::qWaitFor(is_settled));
+        QCOMPARE(differing(view.grabFramebuffer(), picture), 0);
+        // Narrower and higher at once.
+        view.resize(first + QSize(-60, 40));
+        const QImage other = view.grabFramebuffer();
+        QCOMPARE(differing(other.copy(0, 20, other.width(), picture.height()),
+                           picture.copy(30, 0, other.width(), picture.height())),
+                 0);
+        QCOMPARE(other.pixel(other.width() / 2, 5), picture.pixel(1, 1));
+    }
+
+    void the_first_picture_of_a_mesh_is_drawn_behind() {
+        LookingUnderTest test;
+        MeshView& view = test.view();
+        view.set_drawing_mode(DrawingMode::automatic);
+        QSignalSpy begun(&view, &MeshView::frame_begun);
+        test.open(test.inputs.path(QStringLiteral("cube.msh")));
+        QVERIFY(view.has_frame_under_way());
+        QTRY_VERIFY(!view.has_frame_under_way());
+        QVERIFY(begun.count() > 0);
+        QVERIFY(LookingUnderTest::drawn(view.grabFramebuffer()) > 1000);
+    }
+
     void what_is_prepared_behind_is_what_is_shown_in_the_end() {
         LookingUnderTest small;
         const QImage usual = small.view().picture(1);
@@ -309,6 +359,25 @@ class LookingTest : public QObject {
             QVERIFY(wait());
             QVERIFY(edges->isChecked());
             QVERIFY(view.grabFramebuffer() == whole);
+            // Another state while a frame of the one before is under way: that begins again, and in parts, too.
+            QVERIFY(test.document().history()->canRedo());
+            int frames_in_parts = 0;
+            const auto counting = connect(&view, &MeshView::frame_begun, &view, [&] {
+                frames_in_parts += view.scene().has_more_parts();
+                if (frames_in_parts > 1) return;
+                test.click("tool_redo");
+                view.finish_preparing();
+            });
+            edges->trigger();
+            QVERIFY(wait());
+            disconnect(counting);
+            QCOMPARE(frames_in_parts, 2);
+            edges->trigger();
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), bent) <= few);
+            test.click("tool_undo");
+            QVERIFY(wait());
+            QVERIFY(differing(view.picture(1), usual) <= few);
             MeshScene::most_points_of_part = points;
             // Closed before it was ready.
             test.click("tool_redo");

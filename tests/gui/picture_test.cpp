@@ -337,7 +337,9 @@ class PictureTest : public QObject {
         PictureUnderTest test;
         PictureDialog* dialog = test.show_dialog();
         auto* preview = test.find<PreviewLabel>("picture_preview");
-        QTRY_VERIFY(!preview->picture().isNull());
+        QVERIFY(dialog->is_drawing_preview());
+        QTRY_VERIFY(!dialog->is_drawing_preview());
+        QVERIFY(!preview->picture().isNull());
         QVERIFY(!preview->picture().hasAlphaChannel());
         test.find<QCheckBox>("picture_transparent")->setChecked(true);
         QTRY_VERIFY(preview->picture().hasAlphaChannel());

@@ -3,14 +3,19 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <utility>
 
 #include <gtest/gtest.h>
+#include <vtkActor.h>
+#include <vtkActorCollection.h>
+#include <vtkRenderer.h>
 
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_meshes.h"
 #include "tests/support/mesh_factory.h"
 #include "ui/palette/quality_colors.h"
 #include "ui/scene/offscreen.h"
+#include "ui/scene/surface_parts.h"
 
 namespace curvewright {
 namespace {
@@ -86,6 +91,14 @@ std::vector<double> at_nodes(const CurvedMesh& mesh, const Function& function) {
     for (Eigen::Index i = 0; i < mesh.coordinates().rows(); ++i)
         values.push_back(function(mesh.coordinates()(i, 0), mesh.coordinates()(i, 1)));
     return values;
+}
+
+int visible_actors(const MeshScene& scene) {
+    vtkActorCollection* actors = scene.renderer()->GetActors();
+    int count = 0;
+    for (int i = 0; i < actors->GetNumberOfItems(); ++i)
+        count += static_cast<vtkActor*>(actors->GetItemAsObject(i))->GetVisibility() ? 1 : 0;
+    return count;
 }
 
 TEST(Coloring, ACubicFieldOnTwoStraightTrianglesLooksCubic) {
@@ -220,6 +233,44 @@ TEST(Coloring, RangeAndMapOfTheScaledJacobian) {
         expect_close(picture.at(mesh.element_center(element)),
                      map_color(ColorMap::grey, (0.05 + 0.1 * static_cast<double>(element)) / 0.3), 0.006,
                      std::to_string(element));
+}
+
+TEST(Coloring, ASurfaceInPartsLooksAsInOne) {
+    for (const CurvedMesh& mesh : {make_ring(), make_ball()}) {
+        const QualityReport report = make_report(mesh, {}), other = make_report(mesh, {3});
+        Coordinates bent = mesh.coordinates();
+        bent.col(0) += 0.1 * bent.col(1).cwiseAbs2();
+        FieldArray squares;
+        squares.name = "squares";
+        squares.place = FieldArray::Place::nodes;
+        for (Index node = 0; node < mesh.topology().node_count(); ++node)
+            squares.values.push_back(mesh.coordinates().row(node).squaredNorm());
+        Coloring by_nodes;
+        by_nodes.source = Coloring::Source::array;
+        by_nodes.array = std::make_shared<const FieldArray>(squares);
+        for (const Coloring& coloring : {Coloring(), by_nodes}) {
+            const auto pictures = [&](int& actors) {
+                Picture picture(mesh, &report, coloring);
+                std::vector<std::vector<unsigned char>> all{picture.image.rgb};
+                actors = visible_actors(picture.scene);
+                picture.scene.show_frame(bent, &other);
+                picture.draw();
+                all.push_back(picture.image.rgb);
+                picture.scene.set_mesh(&mesh, &report);
+                picture.draw();
+                all.push_back(picture.image.rgb);
+                return all;
+            };
+            int in_one = 0, in_parts = 0;
+            const auto whole = pictures(in_one);
+            const std::size_t few = std::exchange(SurfaceParts::few_triangles, 1);
+            const auto parts = pictures(in_parts);
+            SurfaceParts::few_triangles = few;
+            EXPECT_GE(in_parts, in_one + 3);
+            EXPECT_EQ(parts, whole);
+            EXPECT_NE(whole[0], whole[1]);
+        }
+    }
 }
 
 TEST(Coloring, ArraysThatDoNotFitShowNothing) {

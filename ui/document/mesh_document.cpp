@@ -54,6 +54,10 @@ void MeshDocument::replace(OpenedMesh opened_mesh) {
     file_path_ = std::move(opened_mesh.file_path);
     notes_ = std::move(opened_mesh.notes);
     fields_ = opened_mesh.fields ? std::move(opened_mesh.fields) : std::make_shared<const std::vector<FieldArray>>();
+    if (opened_mesh.groups)
+        groups_ = std::move(*opened_mesh.groups);
+    else
+        groups_ = has_mesh() ? list_groups(original_.mesh->topology()) : QVector<GroupLine>();
     deformation_.reset();
     session_.clear();
 }

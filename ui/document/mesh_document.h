@@ -14,6 +14,7 @@
 #include "core/mesh/field_array.h"
 #include "core/quality/quality.h"
 #include "core/session/action.h"
+#include "ui/document/mesh_text.h"
 
 namespace curvewright {
 
@@ -37,6 +38,8 @@ struct OpenedMesh {
     /// The file's arrays of numbers on nodes and elements; null = none. They go with the mesh through all of its
     /// states.
     std::shared_ptr<const std::vector<FieldArray>> fields;
+    /// Of the mesh, where they have been listed before it is opened.
+    std::optional<QVector<GroupLine>> groups = {};
 };
 
 /// A deformation and the file that it came from.
@@ -82,6 +85,9 @@ class MeshDocument : public QObject {
     const QStringList& notes() const { return notes_; }
     /// The arrays of the file; never null.
     const std::shared_ptr<const std::vector<FieldArray>>& fields() const { return fields_; }
+
+    /// The physical groups of the mesh as opened.
+    const QVector<GroupLine>& groups() const { return groups_; }
 
     const std::optional<LoadedDeformation>& deformation() const { return deformation_; }
     /// True if the loaded deformation was already applied on the way to the present state.
@@ -141,6 +147,7 @@ class MeshDocument : public QObject {
     QString file_path_;
     QStringList notes_;
     std::shared_ptr<const std::vector<FieldArray>> fields_ = std::make_shared<const std::vector<FieldArray>>();
+    QVector<GroupLine> groups_;
     std::optional<LoadedDeformation> deformation_;
     std::vector<Action> session_;
     bool is_applying_ = false;

@@ -2,10 +2,14 @@
 
 #include <chrono>
 #include <exception>
+#include <mutex>
 #include <new>
 #include <string>
+#include <utility>
 
 #include <QMetaObject>
+
+#include "ui/jobs/own_turn.h"
 
 namespace curvewright {
 
@@ -13,6 +17,14 @@ struct JobRunner::Outcome {
     Finish finish;
     QString error;
     bool was_cancelled = false;
+};
+
+/// What a thread has said last, and whether the window has yet to hear of it.
+struct JobRunner::Said {
+    std::mutex mutex;
+    QString phase;
+    double fraction = 0.0;
+    bool is_waiting = false;
 };
 
 JobRunner::JobRunner(QObject* parent) : QObject(parent) {}
@@ -51,16 +63,19 @@ bool JobRunner::launch(const QString& title, KeepableWork work, bool can_keep) {
         TaskContext context;
         context.stop = stop;
         // Called on this thread only (parallel loops report from one thread at a time).
-        context.progress = [this, job, last = std::chrono::steady_clock::time_point(), last_phase = std::string()](
-                               std::string_view phase, double fraction) mutable {
+        context.progress = [this, job, said = std::make_shared<Said>(), last = std::chrono::steady_clock::time_point(),
+                            last_phase = std::string()](std::string_view phase, double fraction) mutable {
             const auto now = std::chrono::steady_clock::now();
             if (phase == last_phase && now - last < std::chrono::milliseconds(50)) return;
             last = now;
             last_phase = phase;
-            const QString text = QString::fromUtf8(phase.data(), static_cast<qsizetype>(phase.size()));
-            QMetaObject::invokeMethod(this, [this, job, text, fraction] {
-                if (is_running_ && job == job_) emit progress(text, fraction);
-            });
+            {
+                const std::lock_guard lock(said->mutex);
+                said->phase = QString::fromUtf8(phase.data(), static_cast<qsizetype>(phase.size()));
+                said->fraction = fraction;
+                if (std::exchange(said->is_waiting, true)) return;
+            }
+            QMetaObject::invokeMethod(this, [this, job, said] { tell(job, *said); });
         };
         auto outcome = std::make_shared<Outcome>();
         try {
@@ -73,7 +88,8 @@ bool JobRunner::launch(const QString& title, KeepableWork work, bool can_keep) {
         } catch (const std::exception& problem) {
             outcome->error = QString::fromUtf8(problem.what());
         }
-        QMetaObject::invokeMethod(this, [this, job, outcome] { deliver(job, outcome); });
+        QMetaObject::invokeMethod(
+            this, [this, job, outcome] { call_in_own_turn(this, [this, job, outcome] { deliver(job, outcome); }); });
     });
     return true;
 }
@@ -90,6 +106,18 @@ void JobRunner::cancel_and_wait() {
     is_running_ = false;
     emit running_changed(false);
     emit cancelled(title_);
+}
+
+void JobRunner::tell(int job, Said& said) {
+    QString phase;
+    double fraction = 0.0;
+    {
+        const std::lock_guard lock(said.mutex);
+        phase = said.phase;
+        fraction = said.fraction;
+        said.is_waiting = false;
+    }
+    if (is_running_ && job == job_) emit progress(phase, fraction);
 }
 
 void JobRunner::deliver(int job, const std::shared_ptr<Outcome>& outcome) {

@@ -44,7 +44,8 @@ class JobRunner : public QObject {
 
   signals:
     void started(const QString& title);
-    /// At most 20 times per second, and at every new phase. fraction in [0, 1].
+    /// At most 20 times per second, and at every new phase, unless there is more to tell before the event loop comes to
+    /// it. fraction in [0, 1].
     void progress(const QString& phase, double fraction);
     /// The end of a job: exactly one of these three, after its Finish has run (finished) or without it.
     void finished(const QString& title);
@@ -55,8 +56,10 @@ class JobRunner : public QObject {
 
   private:
     struct Outcome;
+    struct Said;
 
     bool launch(const QString& title, KeepableWork work, bool can_keep);
+    void tell(int job, Said& said);
     void deliver(int job, const std::shared_ptr<Outcome>& outcome);
 
     std::jthread thread_;

@@ -20,6 +20,7 @@ bool MeshJobs::open(OpenRequest request) {
         for (const std::string& text : read.notes) opened.notes << QString::fromStdString(text);
         opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
         opened.state = make_state(std::move(read.mesh), context);
+        opened.groups = list_groups(opened.state.mesh->topology());
 
         std::optional<LoadedDeformation> loaded;
         std::optional<MeshState> deformed;

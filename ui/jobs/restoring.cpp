@@ -91,6 +91,7 @@ RestoredWork read_lost_work(const QString& journal_path, const TaskContext& cont
     CurvedMesh mesh = read_kept_mesh(content, work.opened, part(0));
     work.opened.file_path = QString::fromStdString(content.head.mesh);
     work.opened.state = make_state(std::move(mesh), part(0));
+    work.opened.groups = list_groups(work.opened.state.mesh->topology());
 
     const MeshState* before = &work.opened.state;
     work.history.steps.reserve(count);
@@ -171,6 +172,7 @@ RestoredWork redo_session(const QString& session_path, const TaskContext& contex
     work.opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
     work.opened.file_path = QString::fromStdString(open.mesh);
     work.opened.state = make_state(std::move(read.mesh), part(0));
+    work.opened.groups = list_groups(work.opened.state.mesh->topology());
     work.history.session.emplace_back(open);
 
     const MeshState* before = &work.opened.state;

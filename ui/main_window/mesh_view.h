@@ -130,7 +130,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void preparing_changed(bool takes_long);
     /// What was asked for is not going to be shown: it was stopped, or there is not enough memory.
     void not_drawn();
-    /// A frame is being drawn behind: until frame_drawn(), another one would only be waited for.
+    /// A frame is being drawn behind, or is begun again: until frame_drawn(), another one would only be waited for.
     void frame_begun();
     /// A frame has been drawn anew and is about to be seen.
     void frame_drawn();
@@ -140,6 +140,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
 
   protected:
     void initializeGL() override;
+    void resizeEvent(QResizeEvent* event) override;
     void resizeGL(int width, int height) override;
     void paintGL() override;
     void mousePressEvent(QMouseEvent* event) override;
@@ -168,6 +169,7 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void render(bool waits);
     void schedule_frame_behind();
     void begin_frame_behind();
+    void begin_frame();
     void draw_behind();
     void poll_frame_behind();
     void continue_frame_behind();

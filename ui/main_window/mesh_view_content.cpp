@@ -5,8 +5,8 @@
 
 #include <QMetaObject>
 
+#include "ui/jobs/own_turn.h"
 #include "ui/main_window/mesh_view_parts.h"
-#include "ui/main_window/own_turn.h"
 
 namespace curvewright {
 namespace {
@@ -40,22 +40,27 @@ void MeshView::show_state(const MeshState& state) {
     parts.flight.stop();
     parts.wanted = state;
     parts.preparing.late_frame.reset();
+    // The graphics make for the first picture of a mesh what all others take as it is.
+    if (!is_of_same_mesh(parts.state, state)) parts.behind.is_slow = true;
     if (is_large()) {
         // Nobody may point at elements of another mesh meanwhile.
-        if (!is_of_same_mesh(parts.state, state)) show_nothing();
-        prepare();
-    } else {
-        if (is_preparing()) {
-            forget_preparation();
+        if (!is_of_same_mesh(parts.state, state)) {
             show_nothing();
+            request_frame();
         }
-        if (!parts.state.mesh) {
-            parts.scene.set_options(parts.options);
-            parts.scene.set_coloring(parts.coloring);
-        }
-        parts.scene.set_mesh(state.mesh.get(), state.quality.get());
-        parts.state = state;
+        prepare();
+        return;
     }
+    if (is_preparing()) {
+        forget_preparation();
+        show_nothing();
+    }
+    if (!parts.state.mesh) {
+        parts.scene.set_options(parts.options);
+        parts.scene.set_coloring(parts.coloring);
+    }
+    parts.scene.set_mesh(state.mesh.get(), state.quality.get());
+    parts.state = state;
     request_frame();
 }
 
@@ -111,8 +116,8 @@ void MeshView::set_coloring(const Coloring& coloring) {
         prepare();
     } else {
         parts.scene.set_coloring(coloring);
+        request_frame();
     }
-    request_frame();
 }
 
 const ColorScale& MeshView::shown_scale() const {
@@ -123,11 +128,12 @@ void MeshView::set_highlighted_elements(const std::vector<Index>& elements) {
     Parts& parts = *parts_;
     parts.highlighted = elements;
     if (elements == parts.scene.highlighted_elements()) return;
-    if (is_large() && elements.size() > most_outlined_at_once)
+    if (is_large() && elements.size() > most_outlined_at_once) {
         prepare();
-    else
+    } else {
         parts.scene.set_highlighted_elements(elements);
-    request_frame();
+        request_frame();
+    }
 }
 
 void MeshView::prepare() {
@@ -207,6 +213,7 @@ void MeshView::show_preparation() {
     }
     // A picture of this mesh takes long: the first one, too.
     parts.behind.is_slow = true;
+    parts.behind.is_outdated = true;
     scale_to_device();
     set_highlighted_elements(parts.highlighted);
     if (parts.tool) parts.tool->refresh();

@@ -9,8 +9,8 @@
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 
+#include "ui/jobs/own_turn.h"
 #include "ui/main_window/mesh_view_parts.h"
-#include "ui/main_window/own_turn.h"
 #include "ui/main_window/picture_drawing.h"
 
 namespace curvewright {
@@ -46,6 +46,14 @@ void MeshView::release_graphics() {
     doneCurrent();
 }
 
+void MeshView::resizeEvent(QResizeEvent* event) {
+    // Qt would have it painted here as well, once for every size that a layout tries.
+    parts_->is_being_resized = true;
+    QOpenGLWidget::resizeEvent(event);
+    parts_->is_being_resized = false;
+    update();
+}
+
 void MeshView::resizeGL(int, int) {
     abandon_frame_behind();
     // The framebuffer's own size: rounding of fractional ratios is Qt's.
@@ -58,6 +66,7 @@ void MeshView::resizeGL(int, int) {
 
 void MeshView::paintGL() {
     Parts& parts = *parts_;
+    if (parts.is_being_resized) return;
     FrameBehind& behind = parts.behind;
     // Whatever else has the window repainted now cannot be drawn before the frame.
     if (behind.is_pending || behind.is_finished) {
@@ -81,9 +90,13 @@ void MeshView::paintGL() {
         state->vtkglClearColor(float(ground[0]), float(ground[1]), float(ground[2]), 1.0f);
         parts.gl->glClear(GL_COLOR_BUFFER_BIT);
     }
-    if (!drawn.isEmpty())
-        parts.window->BlitDisplayFramebuffer(0, 0, 0, drawn.width(), drawn.height(), gap.width() / 2, gap.height() / 2,
-                                             drawn.width(), drawn.height(), GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    // What is seen of it: pixels that would fall beside the view make a drawing of what could be a copy.
+    const QSize seen = drawn.boundedTo(device_size());
+    const QSize cut = (drawn - seen) / 2, margin = (device_size() - seen) / 2;
+    if (!seen.isEmpty())
+        parts.window->BlitDisplayFramebuffer(0, cut.width(), cut.height(), seen.width(), seen.height(), margin.width(),
+                                             margin.height(), seen.width(), seen.height(), GL_COLOR_BUFFER_BIT,
+                                             GL_NEAREST);
     // Opaque whatever VTK has left in the alpha channel: the window below must not shine through.
     parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
@@ -163,8 +176,14 @@ void MeshView::begin_frame_behind() {
         update();
         return;
     }
+    begin_frame();
+}
+
+void MeshView::begin_frame() {
+    FrameBehind& behind = parts_->behind;
     behind.clock.start();
-    if (is_large() && !behind.is_restless) parts.scene.begin_parts();
+    behind.is_outdated = false;
+    if (is_large() && !behind.is_restless) parts_->scene.begin_parts();
     draw_behind();
     emit frame_begun();
 }
@@ -208,8 +227,10 @@ void MeshView::continue_frame_behind() {
     Parts& parts = *parts_;
     if (!parts.behind.is_pending || !parts.scene.has_more_parts()) return;
     if (parts.is_stale) {
-        // What has changed meanwhile would be in some of its parts only.
+        // What has changed meanwhile would be in some of its parts only. Another mesh or other colours do not come as
+        // often as the frames of a motion do.
         parts.scene.end_parts();
+        if (parts.behind.is_outdated) return begin_frame();
         parts.behind.is_restless = true;
     }
     draw_behind();

@@ -55,6 +55,7 @@ struct FrameBehind {
     bool is_pending = false;    ///< begun, not known to be finished
     bool is_finished = false;   ///< but not shown yet
     bool is_restless = false;   ///< more frames are about to come: each is drawn as a whole, that is quicker
+    bool is_outdated = false;   ///< a frame of what was shown before: it is begun again
     QSize drawn_size;           ///< of the picture that there is, device pixels; none = there is none
     GLsync fence = nullptr;
     QTimer poll;
@@ -108,6 +109,7 @@ struct MeshView::Parts {
     QPointF press_position;
     int wheel_turned = 0;  ///< eighths of a degree since the last step of the zoom
     bool is_stale = true;
+    bool is_being_resized = false;
     FrameBehind behind;
     int largest_picture_side = 0;  ///< pixels that the graphics can draw; 0: there are no graphics yet
     bool may_be_click = false;

@@ -35,6 +35,8 @@ class PictureDialog : public QDialog {
     PictureOptions options() const;
     /// Whether a picture is being made.
     bool is_busy() const { return drawing_ || runner_.is_running(); }
+    /// Whether the small picture in the dialog is about to change.
+    bool is_drawing_preview() const { return preview_timer_.isActive() || preview_drawing_; }
     /// Gives up the picture that is being made.
     void stop();
 

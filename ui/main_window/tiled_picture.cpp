@@ -14,9 +14,9 @@
 #include <vtkRenderer.h>
 #include <vtkUnsignedCharArray.h>
 
+#include "ui/jobs/own_turn.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/main_window/offscreen_graphics.h"
-#include "ui/main_window/own_turn.h"
 #include "ui/scene/camera_control.h"
 #include "ui/scene/picture_pixels.h"
 #include "ui/scene/scene_preparation.h"

@@ -69,7 +69,8 @@ void BoundaryField::list_groups(const MeshTopology* topology) {
         auto* item = new QTreeWidgetItem(groups_, {group});
         item->setToolTip(0, group);
         item->setSizeHint(1, {mode_width, group_row_height});
-        auto* mode = new QComboBox;
+        // Where it will be from the start: a move to another parent would have it make its list at once.
+        auto* mode = new QComboBox(groups_->viewport());
         mode->addItem(tr("Stays"), int(BoundaryMode::fixed));
         mode->addItem(tr("Slides"), int(BoundaryMode::slide));
         mode->addItem(tr("Free"), int(BoundaryMode::free));

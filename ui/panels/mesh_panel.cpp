@@ -67,7 +67,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     connect(&document, &MeshDocument::file_path_changed, this, &MeshPanel::show_file);
     const auto choose = [this](QTreeWidgetItem* item) {
         if (!item) return;
-        const GroupLine& line = group_lines_[groups_->indexOfTopLevelItem(item)];
+        const GroupLine& line = document_.groups()[groups_->indexOfTopLevelItem(item)];
         if (line.dimension == document_.state().mesh->topology().dimension())
             emit elements_chosen(line.elements);
         else
@@ -139,9 +139,8 @@ void MeshPanel::show_quality(const QualitySummary& summary) {
 
 void MeshPanel::show_groups() {
     groups_->clear();
-    group_lines_ = document_.has_mesh() ? list_groups(document_.state().mesh->topology()) : QVector<GroupLine>();
     static const QString kinds[] = {tr("points"), tr("curves"), tr("surface"), tr("volume")};
-    for (const GroupLine& line : group_lines_) {
+    for (const GroupLine& line : document_.groups()) {
         auto* item = new QTreeWidgetItem(groups_, {line.name, format_count(static_cast<long long>(line.nodes.size()))});
         item->setTextAlignment(1, Qt::AlignRight | Qt::AlignVCenter);
         item->setToolTip(0, tr("%1 (%2)").arg(line.name, kinds[qBound(0, line.dimension, 3)]));

@@ -45,7 +45,6 @@ class MeshPanel : public QWidget {
     QLabel *file_ = nullptr, *elements_ = nullptr, *nodes_ = nullptr, *validity_ = nullptr, *minimum_ = nullptr;
     QTreeWidget* groups_ = nullptr;
     QUndoView* history_ = nullptr;
-    QVector<GroupLine> group_lines_;
 };
 
 }  // namespace curvewright

@@ -133,11 +133,12 @@ void QualityPanel::find_groups() {
     IndexSet all(static_cast<std::size_t>(topology.element_count()));
     std::iota(all.begin(), all.end(), 0);
     groups_.push_back({tr("all elements"), std::move(all), true, {}, {}});
-    for (GroupLine& line : list_groups(topology))
+    for (const GroupLine& line : document_.groups())
         if (!line.elements.empty()) {
-            std::sort(line.elements.begin(), line.elements.end());
-            line.elements.erase(std::unique(line.elements.begin(), line.elements.end()), line.elements.end());
-            groups_.push_back({line.name, std::move(line.elements), false, {}, {}});
+            IndexSet elements = line.elements;
+            std::sort(elements.begin(), elements.end());
+            elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
+            groups_.push_back({line.name, std::move(elements), false, {}, {}});
         }
 }
 

@@ -6,7 +6,7 @@
 #include "core/tessellate/plane_cut.h"
 #include "core/tessellate/tessellation.h"
 #include "ui/palette/quality_colors.h"
-#include "ui/scene/surface_actor.h"
+#include "ui/scene/surface_parts.h"
 
 namespace curvewright {
 namespace {
@@ -59,7 +59,7 @@ void SurfacePainter::find_scale(const CurvedMesh& mesh) {
         fit(scalar_values(coloring_.array->values, coloring_.array->components, coloring_.component));
 }
 
-void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
+void SurfacePainter::paint(SurfaceParts& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
                            const QualityReport* quality) {
     find_scale(mesh);
     switch (coloring_.source) {
@@ -89,7 +89,7 @@ void SurfacePainter::paint(SurfaceActor& surface, const Tessellation& tessellati
     paint_elements(surface, tessellation, [](Index) { return neutral_color; });
 }
 
-void SurfacePainter::paint_array(SurfaceActor& surface, const Tessellation& tessellation) {
+void SurfacePainter::paint_array(SurfaceParts& surface, const Tessellation& tessellation) {
     const FieldArray& array = *coloring_.array;
     if (array.place == FieldArray::Place::nodes) {
         paint_nodes(surface, tessellation, array.values, array.components, coloring_.component);
@@ -102,14 +102,14 @@ void SurfacePainter::paint_array(SurfaceActor& surface, const Tessellation& tess
     });
 }
 
-void SurfacePainter::paint_elements(SurfaceActor& surface, const Tessellation& tessellation,
+void SurfacePainter::paint_elements(SurfaceParts& surface, const Tessellation& tessellation,
                                     std::function<Color(Index)> color_of) {
     color_of_ = std::move(color_of);
     nodal_.clear();
     surface.set_colors(tessellation, color_of_);
 }
 
-void SurfacePainter::paint_nodes(SurfaceActor& surface, const Tessellation& tessellation, std::vector<double> values,
+void SurfacePainter::paint_nodes(SurfaceParts& surface, const Tessellation& tessellation, std::vector<double> values,
                                  int components, int component) {
     nodal_ = std::move(values);
     components_ = components;

@@ -15,6 +15,7 @@ namespace curvewright {
 
 class PlaneCut;
 class SurfaceActor;
+class SurfaceParts;
 class Tessellation;
 
 /// What the colours of the surface say.
@@ -53,7 +54,7 @@ class SurfacePainter {
     /// The scale and whether there are numbers, as paint() finds them.
     void find_scale(const CurvedMesh& mesh);
     /// quality: null = there is no report. An array that does not fit the mesh has no values.
-    void paint(SurfaceActor& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
+    void paint(SurfaceParts& surface, const Tessellation& tessellation, const CurvedMesh& mesh,
                const QualityReport* quality);
     /// Gives the section of the mesh that was painted last the same colours.
     void paint_section(SurfaceActor& surface, const PlaneCut& section) const;
@@ -64,10 +65,10 @@ class SurfacePainter {
     bool has_missing() const { return has_missing_; }
 
   private:
-    void paint_array(SurfaceActor& surface, const Tessellation& tessellation);
+    void paint_array(SurfaceParts& surface, const Tessellation& tessellation);
     void fit(const std::vector<double>& values);
-    void paint_elements(SurfaceActor& surface, const Tessellation& tessellation, std::function<Color(Index)> color_of);
-    void paint_nodes(SurfaceActor& surface, const Tessellation& tessellation, std::vector<double> values,
+    void paint_elements(SurfaceParts& surface, const Tessellation& tessellation, std::function<Color(Index)> color_of);
+    void paint_nodes(SurfaceParts& surface, const Tessellation& tessellation, std::vector<double> values,
                      int components, int component);
 
     Coloring coloring_;

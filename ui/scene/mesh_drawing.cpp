@@ -91,7 +91,8 @@ MeshDrawing::MeshDrawing(std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr
 }
 
 std::vector<vtkActor*> MeshDrawing::actors() const {
-    std::vector<vtkActor*> actors{surface_.actor(), section_.actors()[0]};
+    std::vector<vtkActor*> actors = surface_.actors();
+    actors.push_back(section_.actors()[0]);
     for (const StrokeActor& edges : edges_) actors.push_back(edges.actor());
     for (vtkActor* actor : {boundary_.actor(), section_.actors()[1]}) actors.push_back(actor);
     for (vtkActor* actor : marks_.actors()) actors.push_back(actor);
@@ -134,7 +135,7 @@ void MeshDrawing::make(bool may_move) {
     surface_.set_surface(*tessellation_, is_new);
     section_.forget();  // of another state; make_cut() makes it anew
     paint();
-    frame_.place(surface_.actor(), tessellation_->origin());
+    surface_.place(frame_, tessellation_->origin());
     const std::vector<float> spacing = line_spacing(*mesh_, *tessellation_);
     typical_spacing_ = median(spacing) / frame_.size;
     for (std::size_t i = 0; i < edges_.size(); ++i) {

@@ -16,7 +16,7 @@
 #include "ui/scene/scene_options.h"
 #include "ui/scene/section_drawing.h"
 #include "ui/scene/stroke_actor.h"
-#include "ui/scene/surface_actor.h"
+#include "ui/scene/surface_parts.h"
 #include "ui/scene/tangled_marks.h"
 
 namespace curvewright {
@@ -97,7 +97,7 @@ class MeshDrawing {
     int fineness_part_ = 0;                                 ///< of the pieces, looked at last in a motion
     std::chrono::steady_clock::time_point next_section_{};  ///< of a motion
 
-    SurfaceActor surface_;
+    SurfaceParts surface_;
     SectionDrawing section_;
     /// Several, so that none takes long to hand to the graphics or to draw.
     std::array<StrokeActor, 6> edges_;

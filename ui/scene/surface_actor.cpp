@@ -65,7 +65,7 @@ constexpr double step_width = 1.6;
 
 constexpr double hatch_period = 6.0, hatch_width = 1.6;
 
-vtkSmartPointer<vtkFloatArray> copy_triples(const std::vector<float>& values) {
+vtkSmartPointer<vtkFloatArray> copy_triples(std::span<const float> values) {
     auto array = vtkSmartPointer<vtkFloatArray>::New();
     array->SetNumberOfComponents(3);
     array->SetNumberOfTuples(static_cast<vtkIdType>(values.size() / 3));
@@ -104,46 +104,70 @@ SurfaceActor::SurfaceActor() {
 SurfaceActor::~SurfaceActor() = default;
 
 void SurfaceActor::set_surface(const Tessellation& tessellation, bool is_new) {
-    actor_->SetVisibility(!tessellation.triangles().empty());
+    set_surface(tessellation, {0, tessellation.triangle_elements().size()}, is_new);
+}
+
+void SurfaceActor::set_surface(const Tessellation& tessellation, TriangleRange range, bool is_new) {
+    const bool is_there = range.begin < range.end;
+    actor_->SetVisibility(is_there);
     if (is_new) {
+        range_ = range;
+        find_points(tessellation);
         data_->Initialize();
         const auto& corners = tessellation.triangles();
+        const auto count = static_cast<vtkIdType>(range.end - range.begin);
         auto ids = vtkSmartPointer<vtkTypeInt64Array>::New();
         auto starts = vtkSmartPointer<vtkTypeInt64Array>::New();
-        ids->SetNumberOfValues(static_cast<vtkIdType>(corners.size()));
-        std::copy(corners.begin(), corners.end(), ids->GetPointer(0));
-        const auto count = static_cast<vtkIdType>(corners.size() / 3);
+        ids->SetNumberOfValues(3 * count);
+        for (vtkIdType i = 0; i < 3 * count; ++i)
+            ids->SetValue(i, corners[3 * range.begin + static_cast<std::size_t>(i)] - static_cast<Index>(first_point_));
         starts->SetNumberOfValues(count + 1);
         for (vtkIdType i = 0; i <= count; ++i) starts->SetValue(i, 3 * i);
         vtkNew<vtkCellArray> triangles;
         triangles->SetData(starts, ids);
         data_->SetPolys(triangles);
     }
+    const auto its = [this](const std::vector<float>& triples) {
+        return copy_triples(std::span(triples).subspan(3 * first_point_, 3 * point_count_));
+    };
     vtkNew<vtkPoints> points;
-    points->SetData(copy_triples(tessellation.surface_points()));
+    points->SetData(its(tessellation.surface_points()));
     data_->SetPoints(points);
-    data_->GetPointData()->SetNormals(is_lit_ ? copy_triples(tessellation.surface_normals()) : nullptr);
+    data_->GetPointData()->SetNormals(is_lit_ ? its(tessellation.surface_normals()) : nullptr);
     data_->Modified();
+}
+
+/// Points stand in the order of the triangles, those of a face together.
+void SurfaceActor::find_points(const Tessellation& tessellation) {
+    first_point_ = point_count_ = 0;
+    if (range_.begin >= range_.end) return;
+    const auto begin = tessellation.triangles().begin();
+    const auto [least, most] = std::minmax_element(begin + static_cast<std::ptrdiff_t>(3 * range_.begin),
+                                                   begin + static_cast<std::ptrdiff_t>(3 * range_.end));
+    first_point_ = static_cast<std::size_t>(*least);
+    point_count_ = static_cast<std::size_t>(*most - *least) + 1;
 }
 
 void SurfaceActor::set_colors(const Tessellation& tessellation, const std::function<Color(Index)>& color_of) {
     vtkNew<vtkUnsignedCharArray> colors;
     colors->SetNumberOfComponents(3);
-    colors->SetNumberOfTuples(static_cast<vtkIdType>(tessellation.surface_points().size() / 3));
-    unsigned char* at = colors->GetPointer(0);
+    colors->SetNumberOfTuples(static_cast<vtkIdType>(point_count_));
+    unsigned char* const first = colors->GetPointer(0);
     // Every point belongs to one element only, so its triangles agree on the colour.
     const auto& elements = tessellation.triangle_elements();
     Index last = -1;
     std::array<unsigned char, 3> bytes{};
-    for (std::size_t triangle = 0; triangle < elements.size(); ++triangle) {
+    for (std::size_t triangle = range_.begin; triangle < range_.end; ++triangle) {
         if (elements[triangle] != last) {
             last = elements[triangle];
             const Color color = color_of(last);
             for (std::size_t c = 0; c < 3; ++c)
                 bytes[c] = static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[c], 0.0, 1.0)));
         }
-        for (std::size_t corner = 0; corner < 3; ++corner)
-            std::copy(bytes.begin(), bytes.end(), at + 3 * tessellation.triangles()[3 * triangle + corner]);
+        for (std::size_t corner = 0; corner < 3; ++corner) {
+            const auto point = static_cast<std::size_t>(tessellation.triangles()[3 * triangle + corner]);
+            std::copy(bytes.begin(), bytes.end(), first + 3 * (point - first_point_));
+        }
     }
     mapper_->InterpolateScalarsBeforeMappingOff();
     data_->GetPointData()->SetScalars(colors);
@@ -203,7 +227,7 @@ void SurfaceActor::set_cut(const std::optional<CuttingPlane>& plane, const Eigen
     actor_->GetShaderProperty()->GetVertexCustomUniforms()->SetUniform4f("surfaceCut", cut.data());
 }
 
-void SurfaceActor::set_field(const std::vector<double>& values, const ColorScale& scale) {
+void SurfaceActor::set_field(std::span<const double> values, const ColorScale& scale) {
     constexpr int table_size = 512;
     vtkNew<vtkLookupTable> table;
     table->SetNumberOfTableValues(table_size);
