@@ -81,7 +81,7 @@ std::string hatch_svg(const ReportColors& colors) {
 
 std::string histogram_svg(const ReportHistogram& histogram, Index highest, const ReportColors& colors,
                           const std::string& title) {
-    constexpr double width = histogram_width, height = histogram_height, left = 40, right = 8, top = 12, bottom = 32,
+    constexpr double width = histogram_width, height = histogram_height, left = 48, right = 8, top = 12, bottom = 32,
                      gap = 26;
     constexpr double bar = (width - left - right - gap) / (ReportHistogram::bins + 2), base = height - bottom;
     const auto height_of = [&](Index count) {
