@@ -63,6 +63,7 @@ void set_action(CLI::App& command, Invocation& invocation, std::shared_ptr<Optio
 // One per file.
 void add_info(CLI::App& app, Invocation& invocation);
 void add_quality(CLI::App& app, Invocation& invocation);
+void add_histogram(CLI::App& app, Invocation& invocation);
 void add_elevate(CLI::App& app, Invocation& invocation);
 void add_deform(CLI::App& app, Invocation& invocation);
 void add_warp(CLI::App& app, Invocation& invocation);

@@ -43,6 +43,7 @@ int main(int argc, char** argv) {
     Invocation invocation;
     add_info(app, invocation);
     add_quality(app, invocation);
+    add_histogram(app, invocation);
     add_elevate(app, invocation);
     add_deform(app, invocation);
     add_warp(app, invocation);

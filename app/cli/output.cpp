@@ -59,7 +59,7 @@ ReadResult read_input(const std::filesystem::path& file, const Invocation& invoc
                       Json& timings) {
     const Stopwatch watch;
     ReadResult result = read_mesh(file, context);
-    timings["read"] = watch.seconds();
+    timings["read"] = timings.value("read", 0.0) + watch.seconds();
     if (!invocation.common.quiet)
         for (const std::string& note : result.notes) fmt::print(stderr, "{}: {}\n", file.string(), note);
     return result;

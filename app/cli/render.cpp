@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <optional>
 
@@ -6,7 +8,10 @@
 #include "app/cli/command.h"
 #include "app/cli/output.h"
 #include "app/cli/render_colors.h"
+#include "app/cli/render_view.h"
 #include "core/base/error.h"
+#include "core/io/atomic_file.h"
+#include "ui/scene/indexed_picture.h"
 #include "ui/scene/offscreen.h"
 
 namespace curvewright::cli {
@@ -19,6 +24,8 @@ struct Options {
     SceneOptions scene;
     std::optional<double> clip_position;
     RenderColors colors;
+    RenderView view;
+    std::optional<int> palette;  ///< number of colours
 };
 
 /// "WxH".
@@ -31,6 +38,23 @@ std::string parse_size(const std::string& text, Options& options) {
     options.width = width;
     options.height = height;
     return {};
+}
+
+/// Where --clip-at says; else through the middle of what is shown from near, or of the mesh. Seen from somewhere else
+/// than usual, what is taken away is on the side of the eye.
+void place_clip(ClipPlane& clip, const Options& options, const CurvedMesh& mesh, const std::optional<ShownBall>& ball) {
+    const Eigen::RowVector3d normal(clip.normal[0], clip.normal[1], clip.normal[2]);
+    Eigen::Index axis = 0;
+    normal.cwiseAbs().maxCoeff(&axis);
+    if (const auto& to_eye = options.view.to_eye; to_eye && std::abs((*to_eye)[axis]) > 1e-9)
+        clip.normal[static_cast<std::size_t>(axis)] = (*to_eye)[axis] > 0.0 ? 1.0 : -1.0;
+    std::optional<double> position = options.clip_position;
+    if (!position && ball) {
+        const auto box = bounding_box(mesh);
+        const double extent = box(1, axis) - box(0, axis);
+        if (extent > 0.0) position = std::clamp((ball->center[axis] - box(0, axis)) / extent, 0.0, 1.0);
+    }
+    if (position) clip.position = clip.normal[static_cast<std::size_t>(axis)] < 0.0 ? 1.0 - *position : *position;
 }
 
 int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
@@ -48,24 +72,32 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     SceneOptions scene_options = options.scene;
     scene_options.font = find_text_font();
     scene_options.pixel_ratio = std::max(1.0, options.height / 900.0);
-    if (ClipPlane* clip = scene_options.clip ? &*scene_options.clip : nullptr; clip && options.clip_position) {
-        const bool is_flipped = clip->normal[0] + clip->normal[1] + clip->normal[2] < 0.0;
-        clip->position = is_flipped ? 1.0 - *options.clip_position : *options.clip_position;
-    }
+    const QualityReport* its_quality = quality ? &*quality : nullptr;
+    const std::optional<ShownBall> ball = find_shown_ball(options.view, mesh, its_quality);
+    if (ball) scene_options.magnification = magnification(*ball, mesh);
     if (mesh.topology().dimension() != 3) scene_options.clip.reset();
+    if (scene_options.clip) place_clip(*scene_options.clip, options, mesh, ball);
     scene.set_options(scene_options);
     scene.set_coloring(coloring);
-    scene.set_mesh(&mesh, quality ? &*quality : nullptr);
-    render_png(scene, options.width, options.height, options.output, options.ground);
+    scene.set_mesh(&mesh, its_quality);
+    if (options.view.outline) scene.set_highlighted_elements(choose_elements(*options.view.outline, mesh, its_quality));
+    apply_view(options.view, ball, options.width, options.height, scene);
+    if (options.palette)
+        write_text_file(options.output,
+                        to_png(reduce_colors(render_pixels(scene, options.width, options.height), *options.palette)));
+    else
+        render_png(scene, options.width, options.height, options.output, options.ground);
     timings["render"] = rendering.seconds();
     finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json(
-            {{"mesh", mesh_json(options.mesh, mesh)},
-             {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
-             {"colors", colors_json(options.colors, scene.shown_scale())},
-             {"timings", timings}});
-    else
+    if (invocation.common.json) {
+        Json json = {
+            {"mesh", mesh_json(options.mesh, mesh)},
+            {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
+            {"colors", colors_json(options.colors, scene.shown_scale())}};
+        if (ball) json["view"] = ball_json(*ball, mesh);
+        json["timings"] = timings;
+        print_json(json);
+    } else
         fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
     return exit_done;
 }
@@ -81,9 +113,15 @@ void add_render(CLI::App& app, Invocation& invocation) {
     command->add_option("--size", "Size in pixels (default 1200x900)")
         ->type_name("WxH")
         ->check([options](const std::string& text) { return parse_size(text, *options); });
-    command->add_flag_function(
+    CLI::Option* transparent = command->add_flag_function(
         "--transparent", [options](std::int64_t) { options->ground = PictureGround::transparent; },
         "No ground: what is not the mesh is transparent");
+    command
+        ->add_option("--palette", options->palette,
+                     "At most N colours, 2 to 256: a file of a third or a fourth of the size")
+        ->type_name("N")
+        ->check(CLI::Range(2, 256))
+        ->excludes(transparent);
     command->add_flag("--nodes", options->scene.show_nodes, "Draw the nodes");
     command->add_flag_function(
         "--no-edges", [options](std::int64_t) { options->scene.show_edges = false; },
@@ -117,13 +155,16 @@ void add_render(CLI::App& app, Invocation& invocation) {
         add_clip("--cut", ClipStyle::cut, "3D: cut through the elements at that plane and show the section");
     cut->excludes(clip);
     command
-        ->add_option("--clip-at", options->clip_position,
-                     "Where the plane of --clip or --cut stands: fraction of the mesh's extent (default 0.5)")
+        ->add_option(
+            "--clip-at", options->clip_position,
+            "Where the plane of --clip or --cut stands: fraction of the mesh's extent (default 0.5; with --focus or "
+            "--zoom: through the middle of what is shown)")
         ->check(CLI::Range(0.0, 1.0));
     command->parse_complete_callback([command] {
         if (command->count("--clip-at") > 0 && command->count("--clip") + command->count("--cut") == 0)
             throw CLI::ValidationError("--clip-at", "is for --clip or --cut");
     });
+    add_view_options(*command, options->view);
     add_color_options(*command, options->colors);
     set_action(*command, invocation, options, run);
 }

@@ -12,11 +12,31 @@
 namespace curvewright {
 namespace {
 
+constexpr double histogram_width = 440, histogram_height = 190;
 constexpr const char* axis_style = "stroke='#9aa0a6' stroke-width='1'";
 constexpr const char* grid_style = "stroke='#e3e5e8' stroke-width='1'";
 
 std::string text_svg(double x, double y, const char* anchor, const std::string& text) {
     return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}'>{}</text>", x, y, anchor, escaped(text));
+}
+
+std::string hatch_pattern(const ReportColors& colors) {
+    return fmt::format(
+        "<defs><pattern id='hatch' width='5' height='5' patternUnits='userSpaceOnUse' patternTransform='rotate(45)'>"
+        "<rect width='5' height='5' fill='{}'/><rect width='1.6' height='5' fill='#ffffff'/></pattern></defs>",
+        colors.tangled);
+}
+
+/// "min −0.2220, mean 0.6340; 2 of 30 tangled".
+std::string summary_text(const QualitySummary& summary) {
+    std::string text = fmt::format("min {}, mean {}; ", number_text(summary.min), number_text(summary.mean));
+    const std::string total = count_text(summary.elements());
+    if (summary.invalid > 0)
+        text += fmt::format("{} of {} tangled", count_text(summary.invalid), total);
+    else
+        text += summary.undecided > 0 ? total + " elements" : fmt::format("all {} valid", total);
+    if (summary.undecided > 0) text += fmt::format(", {} undecided", count_text(summary.undecided));
+    return text;
 }
 
 /// The range of an axis and the numbers written at it.
@@ -56,16 +76,13 @@ Axis logarithmic_axis(double low, double high) {
 }  // namespace
 
 std::string hatch_svg(const ReportColors& colors) {
-    return fmt::format(
-        "<svg width='0' height='0' style='position:absolute' aria-hidden='true'><defs>"
-        "<pattern id='hatch' width='5' height='5' patternUnits='userSpaceOnUse' patternTransform='rotate(45)'>"
-        "<rect width='5' height='5' fill='{}'/><rect width='1.6' height='5' fill='#ffffff'/></pattern></defs></svg>",
-        colors.tangled);
+    return "<svg width='0' height='0' style='position:absolute' aria-hidden='true'>" + hatch_pattern(colors) + "</svg>";
 }
 
 std::string histogram_svg(const ReportHistogram& histogram, Index highest, const ReportColors& colors,
                           const std::string& title) {
-    constexpr double width = 440, height = 190, left = 40, right = 8, top = 12, bottom = 32, gap = 26;
+    constexpr double width = histogram_width, height = histogram_height, left = 48, right = 8, top = 12, bottom = 32,
+                     gap = 26;
     constexpr double bar = (width - left - right - gap) / (ReportHistogram::bins + 2), base = height - bottom;
     const auto height_of = [&](Index count) {
         if (count == 0) return 0.0;
@@ -103,6 +120,32 @@ std::string histogram_svg(const ReportHistogram& histogram, Index highest, const
                         fmt::format("{:.1f}", tick));
     svg += text_svg(begin + 0.5 * bar * ReportHistogram::bins, height - 4, "middle", "scaled Jacobian");
     return svg + "</svg>";
+}
+
+std::string histograms_document(const std::vector<HistogramPanel>& panels, const ReportColors& colors) {
+    constexpr double margin = 12, gap = 24, head = 40;
+    const std::size_t columns = std::min<std::size_t>(2, panels.size()), rows = (panels.size() + 1) / 2;
+    const double width = 2 * margin + static_cast<double>(columns) * (histogram_width + gap) - gap;
+    const double height = 2 * margin + static_cast<double>(rows) * (head + histogram_height + gap) - gap;
+    Index highest = 1;
+    for (const HistogramPanel& panel : panels) highest = std::max(highest, panel.histogram.highest());
+    std::string svg = fmt::format(
+        "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}'>\n"
+        "<style>text {{ font: 11px system-ui, \"Segoe UI\", \"Noto Sans\", \"DejaVu Sans\", sans-serif; fill: #565d66; "
+        "}} "
+        ".strong {{ font-weight: 600; fill: #1d2125; }} .title {{ font-size: 14px; }}</style>\n"
+        "{2}<rect width='{0}' height='{1}' fill='#ffffff'/>\n",
+        width, height, hatch_pattern(colors));
+    for (std::size_t i = 0; i < panels.size(); ++i) {
+        const HistogramPanel& panel = panels[i];
+        const double x = margin + static_cast<double>(i % 2) * (histogram_width + gap);
+        const double y = margin + static_cast<double>(i / 2) * (head + histogram_height + gap);
+        svg += fmt::format("<text x='{}' y='{}' class='strong title'>{}</text>", x, y + 13, escaped(panel.title));
+        svg += fmt::format("<text x='{}' y='{}'>{}</text>\n", x, y + 30, escaped(summary_text(panel.summary)));
+        svg += fmt::format("<svg x='{}' y='{}' width='{}' height='{}'>{}</svg>\n", x, y + head, histogram_width,
+                           histogram_height, histogram_svg(panel.histogram, highest, colors, panel.title));
+    }
+    return svg + "</svg>\n";
 }
 
 std::string chart_svg(const Chart& chart) {

@@ -21,6 +21,16 @@ std::string hatch_svg(const ReportColors& colors);
 std::string histogram_svg(const ReportHistogram& histogram, Index highest, const ReportColors& colors,
                           const std::string& title);
 
+/// A histogram among others, and what stands above and below it.
+struct HistogramPanel {
+    std::string title;
+    QualitySummary summary;
+    ReportHistogram histogram;
+};
+/// A picture that needs nothing else, as the text of an SVG file: histograms two in a row, all on one scale, each with
+/// its title and its numbers.
+std::string histograms_document(const std::vector<HistogramPanel>& panels, const ReportColors& colors);
+
 /// A polyline of a chart.
 struct ChartLine {
     std::vector<std::pair<double, double>> points;  ///< x ascending

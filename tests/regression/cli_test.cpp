@@ -167,6 +167,107 @@ TEST_F(CommandLine, RenderLeavesTheGroundOut) {
     EXPECT_EQ(read(picture)[25], 2);
 }
 
+/// Pixels of a picture that `are` so: red, green and blue; top and left first.
+template <class Are>
+double share_of_pixels(const std::string& file, Are are) {
+    vtkNew<vtkPNGReader> reader;
+    reader->SetFileName(file.c_str());
+    reader->Update();
+    const int* size = reader->GetOutput()->GetDimensions();
+    const auto* rgb = static_cast<const unsigned char*>(reader->GetOutput()->GetScalarPointer());
+    int count = 0;
+    for (int i = 0; i < size[0] * size[1]; ++i) count += are(rgb[3 * i], rgb[3 * i + 1], rgb[3 * i + 2]) ? 1 : 0;
+    return static_cast<double>(count) / (size[0] * size[1]);
+}
+
+TEST_F(CommandLine, RenderComesNear) {
+    make_tangled();
+    const std::string picture = folder / "near.png", again = folder / "again.png";
+    const auto draw = [&](const std::string& file, std::vector<std::string> options) {
+        std::vector<std::string> arguments = {"render", tangled,   "-o",          file,
+                                              "--size", "320x240", "--no-legend", "--json"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        const ProcessResult result = cli(arguments);
+        EXPECT_EQ(result.status, 0) << result.errors;
+        return Json::parse(result.output);
+    };
+    const auto is_alarm = [](int red, int green, int blue) { return red > 180 && green < 60 && blue > 60; };
+    EXPECT_FALSE(draw(picture, {}).contains("view"));
+    const double far = share_of_pixels(picture, is_alarm);
+    const Json worst = draw(picture, {"--focus", "worst", "--margin", "0.1"})["view"];
+    EXPECT_GT(share_of_pixels(picture, is_alarm), 4.0 * far);
+    ASSERT_EQ(worst["elements"].size(), 1u);
+
+    // The same place in numbers, the same element by its tag.
+    const std::string place =
+        worst["center"][0].dump() + "," + worst["center"][1].dump() + "," + worst["radius"].dump();
+    draw(again, {"--zoom=" + place});
+    EXPECT_EQ(read(again), read(picture));
+    const std::string element = "element:" + worst["elements"][0].dump();
+    draw(again, {"--focus", element, "--margin", "0.1"});
+    EXPECT_EQ(read(again), read(picture));
+    draw(again, {"--focus", element, "--margin", "0.1", "--outline", element});
+    EXPECT_NE(read(again), read(picture));
+
+    const Json both = draw(picture, {"--focus", "tangled", "--margin", "0"})["view"];
+    EXPECT_EQ(both["elements"].size(), 2u);
+    EXPECT_NEAR(both["center"][1].get<double>(), 0.0, 0.05);  // one above the hole, one below it
+    EXPECT_EQ(draw(picture, {"--focus", "worst:3"})["view"]["elements"].size(), 3u);
+
+    expect_bad_input({"render", tangled, "-o", picture, "--focus", "element:12345"}, "no element 12345");
+    expect_bad_input({"render", annulus, "-o", picture, "--focus", "tangled"}, "No element is tangled");
+}
+
+TEST_F(CommandLine, RenderLooksFromWhereItIsTold) {
+    const std::string screw = samples + "screw/screw.msh.gz";
+    std::vector<std::string> pictures;
+    const auto draw = [&](std::vector<std::string> options) {
+        const std::string picture = folder / "side.png";
+        std::vector<std::string> arguments{"render", screw, "-o", picture, "--size", "160x120", "--no-legend"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        EXPECT_EQ(cli(arguments).status, 0);
+        return read(picture);
+    };
+    EXPECT_EQ(draw({"--view", "iso"}), draw({}));
+    EXPECT_EQ(draw({"--view", "front"}), draw({"--view", "-90,0"}));
+    EXPECT_NE(draw({"--view", "front"}), draw({"--view", "back"}));
+    // The section is on the side of the eye, and goes through what is looked at.
+    EXPECT_EQ(draw({"--view", "top", "--cut", "z", "--zoom", "0,0,1.935,1"}),
+              draw({"--view", "top", "--cut", "z", "--zoom", "0,0,1.935,1", "--clip-at", "0.5"}));
+    EXPECT_NE(draw({"--view", "back", "--cut", "y"}), draw({"--view", "back"}));
+    expect_bad_input({"render", screw, "-o", folder / "side.png", "--zoom", "0,0,1"}, "four numbers");
+}
+
+TEST_F(CommandLine, RenderWithAPalette) {
+    make_tangled();
+    const std::string full = folder / "full.png", small = folder / "small.png";
+    ASSERT_EQ(cli({"render", tangled, "-o", full, "--size", "320x240"}).status, 0);
+    ASSERT_EQ(cli({"render", tangled, "-o", small, "--size", "320x240", "--palette", "32"}).status, 0);
+    EXPECT_EQ(read(small)[25], 3);  // colour type: palette
+    EXPECT_LT(2 * read(small).size(), read(full).size());
+    const auto is_white = [](int red, int green, int blue) { return red == 255 && green == 255 && blue == 255; };
+    EXPECT_NEAR(share_of_pixels(small, is_white), share_of_pixels(full, is_white), 0.02);
+}
+
+TEST_F(CommandLine, HistogramsOnOneScale) {
+    make_tangled();
+    const std::string picture = folder / "histograms.svg";
+    const ProcessResult result =
+        cli({"histogram", annulus, tangled, "-o", picture, "--title", "a < b", "--title", "Tangled", "--json"});
+    ASSERT_EQ(result.status, 0) << result.errors;
+    const Json states = Json::parse(result.output)["states"];
+    ASSERT_EQ(states.size(), 2u);
+    EXPECT_EQ(states[0]["histogram"]["tangled"], 0);
+    EXPECT_EQ(states[1]["histogram"]["tangled"], 2);
+    EXPECT_EQ(states[1]["scaled_jacobian"]["invalid"], 2);
+    const std::string svg = read(picture);
+    EXPECT_EQ(svg.substr(0, 4), "<svg");
+    for (const char* text : {"a &lt; b", ">Tangled<", "all 30 valid", "2 of 30 tangled", "min −0.22"})
+        EXPECT_NE(svg.find(text), std::string::npos) << text;
+    expect_bad_input({"histogram", annulus, "-o", folder / "histograms.png"}, "histograms are written as .svg");
+    EXPECT_EQ(cli({"histogram", annulus, tangled, "-o", picture, "--title", "one"}).status, 2);
+}
+
 TEST_F(CommandLine, AnimateWritesPicturesOfAWarp) {
     const std::string deformation = folder / "shift.json", film = folder / "film";
     write(deformation, R"({"operations": [{"group": "inner", "type": "translate", "vector": [0.05, 0, 0]}]})");
@@ -412,6 +513,13 @@ TEST_F(CommandLine, WrongUsageEndsWithTwo) {
              {"render", annulus, "-o", "x.png", "--cut", "x", "--clip", "y"},
              {"render", annulus, "-o", "x.png", "--clip-at", "0.5"},
              {"render", annulus, "-o", "x.png", "--cut", "x", "--clip-at", "2"},
+             {"render", annulus, "-o", "x.png", "--focus", "best"},
+             {"render", annulus, "-o", "x.png", "--focus", "worst", "--zoom", "0,0,1"},
+             {"render", annulus, "-o", "x.png", "--margin", "1"},
+             {"render", annulus, "-o", "x.png", "--zoom", "0,0"},
+             {"render", annulus, "-o", "x.png", "--view", "above"},
+             {"render", annulus, "-o", "x.png", "--palette", "1"},
+             {"render", annulus, "-o", "x.png", "--palette", "64", "--transparent"},
              {"elevate", annulus, "-o", "x.msh"}}) {
         const ProcessResult result = cli(arguments);
         EXPECT_EQ(result.status, 2) << (arguments.empty() ? "" : arguments.back());

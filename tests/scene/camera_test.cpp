@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -99,6 +100,36 @@ TEST(Camera, LooksAlongTheAxes) {
     flat.scene.look(ViewDirection::plus_x);
     EXPECT_NEAR(flat.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[2], -1.0, 1e-9);
     EXPECT_TRUE(flat.scene.renderer()->GetActiveCamera()->GetParallelProjection());
+}
+
+TEST(Camera, LooksFromAnywhere) {
+    Window its(make_ball());
+    const auto expect_forward = [&](const Eigen::RowVector3d& to_eye) {
+        its.scene.look_from(to_eye);
+        for (int d = 0; d < 3; ++d)
+            EXPECT_NEAR(its.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[d], -to_eye.normalized()[d],
+                        1e-9);
+    };
+    expect_forward({3.0, -4.0, 12.0});
+    EXPECT_GT(its.scene.renderer()->GetActiveCamera()->GetViewUp()[2], 0.0);
+    expect_forward({0.0, 0.0, 2.0});
+    Window flat(make_ring());
+    flat.scene.look_from({1.0, 0.0, 0.0});
+    EXPECT_NEAR(flat.scene.renderer()->GetActiveCamera()->GetDirectionOfProjection()[2], -1.0, 1e-9);
+}
+
+TEST(Camera, PicturesFromNearAreCutFiner) {
+    const auto ring = std::make_shared<const CurvedMesh>(make_ring());
+    const auto points = [&](double magnification) {
+        MeshDrawing drawing(ring, nullptr, {});
+        drawing.options.magnification = magnification;
+        drawing.make(false);
+        return drawing.tessellation().edge_points().size();
+    };
+    EXPECT_GT(2 * points(20.0), 3 * points(1.0));
+    SceneOptions far, near;
+    near.magnification = 2.0;
+    EXPECT_EQ(redrawing(far, near), Redrawing::all);
 }
 
 TEST(Picking, FindsTheElementUnderThePointer) {

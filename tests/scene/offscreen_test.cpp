@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 
@@ -9,8 +11,10 @@
 #include <vtkRenderer.h>
 
 #include "core/base/error.h"
+#include "core/io/atomic_file.h"
 #include "tests/scene/image_compare.h"
 #include "tests/scene/scene_meshes.h"
+#include "ui/scene/indexed_picture.h"
 #include "ui/scene/offscreen.h"
 #include "ui/scene/picture_pixels.h"
 
@@ -137,6 +141,40 @@ TEST(Offscreen, HalfCoveredPixelsKeepTheirColour) {
     EXPECT_NEAR(block.bytes[0], 200, 2);
     EXPECT_NEAR(block.bytes[1], 100, 2);
     EXPECT_NEAR(block.bytes[3], 96, 1);
+}
+
+TEST(IndexedPicture, FewColoursStayWhatTheyAre) {
+    // Two rows from the bottom: red red, white black.
+    const PicturePixels picture{2, 2, 3, {200, 0, 0, 200, 0, 0, 255, 255, 255, 0, 0, 0}};
+    const IndexedPicture indexed = reduce_colors(picture, 256);
+    ASSERT_EQ(indexed.palette.size(), 3u);
+    const auto color = [&](std::size_t i) { return indexed.palette[indexed.indices[i]]; };
+    using Rgb = std::array<unsigned char, 3>;
+    EXPECT_EQ(color(0), (Rgb{255, 255, 255}));
+    EXPECT_EQ(color(1), (Rgb{0, 0, 0}));
+    EXPECT_EQ(color(2), (Rgb{200, 0, 0}));
+    EXPECT_EQ(color(3), (Rgb{200, 0, 0}));
+}
+
+TEST(IndexedPicture, ManyColoursBecomeSimilarOnes) {
+    MeshScene scene;
+    const CurvedMesh ring = make_ring();
+    scene.set_mesh(&ring, nullptr);
+    const PicturePixels picture = render_pixels(scene, 160, 120);
+    const IndexedPicture indexed = reduce_colors(picture, 16);
+    EXPECT_EQ(indexed.palette.size(), 16u);
+    const auto file = output();
+    write_text_file(file, to_png(indexed));
+    const Image image = read_image(file);
+    ASSERT_EQ(image.width, 160);
+    ASSERT_EQ(image.height, 120);
+    int most = 0;
+    for (std::size_t i = 0; i < picture.bytes.size(); ++i)
+        most = std::max(most, std::abs(image.rgb[i] - picture.bytes[i]));
+    EXPECT_GT(most, 0);
+    EXPECT_LT(most, 40);
+    EXPECT_TRUE(is_close(image.pixel(0, 0), {1.0, 1.0, 1.0}));
+    EXPECT_EQ(image.pixel(0, 0)[0], 255);
 }
 
 TEST(Offscreen, TheSceneKeepsItsOptions) {

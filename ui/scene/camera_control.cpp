@@ -132,6 +132,16 @@ void CameraControl::look(ViewDirection direction) {
     fit();
 }
 
+void CameraControl::look_from(const Eigen::RowVector3d& to_eye) {
+    if (!is_flat_ && to_eye.norm() > 0.0) {
+        const Eigen::Vector3d backward = to_eye.transpose().normalized();
+        const bool is_vertical = std::abs(backward[2]) > 0.999;
+        turn_to(backward, is_vertical ? Eigen::Vector3d(0, 1, 0) : Eigen::Vector3d(0, 0, 1));
+    }
+    keeps_fitted_ = true;
+    fit();
+}
+
 void CameraControl::fit() {
     vtkCamera* camera = renderer_->GetActiveCamera();
     update_projection();

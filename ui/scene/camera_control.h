@@ -36,6 +36,8 @@ class CameraControl {
     void set_right_margin(double pixels) { right_margin_ = pixels; }
 
     void look(ViewDirection direction);
+    /// The same from anywhere: to_eye points from the mesh to the camera. Solid meshes only.
+    void look_from(const Eigen::RowVector3d& to_eye);
     /// Centres a ball of the given radius so that it fills a fifth of the view's height; turns to look along
     /// -facing if that is not zero (3D).
     void focus(const Eigen::RowVector3d& center, double radius, const Eigen::RowVector3d& facing);

@@ -108,6 +108,7 @@ TessellationOptions MeshDrawing::tessellation_options() const {
     const std::size_t faces = topology.dimension() == 3 ? topology.boundary_facets().size()
                                                         : static_cast<std::size_t>(topology.element_count());
     its.min_subdivisions = least_subdivisions(faces);
+    its.chord_tolerance /= std::max(1.0, options.magnification);
     // Numbers on nodes are to be seen between them.
     if (painter.is_on_nodes()) {
         const int whole = 2 * topology.order();
@@ -173,7 +174,9 @@ void MeshDrawing::make_cut() {
 
 void MeshDrawing::find_section(const CuttingPlane& plane) {
     PlaneCutOptions its;
-    its.min_subdivisions = std::max(2, tessellation_options().min_subdivisions);
+    const TessellationOptions outside = tessellation_options();
+    its.min_subdivisions = std::max(2, outside.min_subdivisions);
+    its.chord_tolerance = outside.chord_tolerance;
     its.element_size = options.element_size;
     section_.find(*mesh_, plane, visible_, its);
 }
@@ -207,6 +210,7 @@ void MeshDrawing::make_highlight() {
         // The sides between two of them are drawn as well, unless they are so many that nothing else would be seen.
         TessellationOptions its;
         its.min_subdivisions = least_subdivisions(count);
+        its.chord_tolerance = tessellation_options().chord_tolerance;
         const Tessellation outline(*mesh_, flags, its);
         if (count > (is_flat() ? most_outlined_singly : most_solids_outlined_singly))
             lines = select_lines(outline, is_flat() ? outline.line_is_boundary() : outline.line_is_rim());

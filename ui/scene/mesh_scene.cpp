@@ -130,6 +130,11 @@ struct MeshScene::Parts {
         camera.look(direction);
     }
 
+    void look_from(const Eigen::RowVector3d& to_eye) {
+        camera.set_right_margin(legend.width(options().pixel_ratio));
+        camera.look_from(to_eye);
+    }
+
     void prepare_frame() {
         if (renderer->has_more_parts()) return;  // was prepared with the first
         const double ratio = options().pixel_ratio;
@@ -266,7 +271,7 @@ void MeshScene::set_options(const SceneOptions& options) {
     const SceneOptions before = std::exchange(drawing.options, options);
     switch (parts.has_mesh() ? redrawing(before, options) : Redrawing::nothing) {
         case Redrawing::all:
-            drawing.make(before.element_size == options.element_size);
+            drawing.make(has_same_pieces(before, options));
             parts.follow_drawing();
             return;
         case Redrawing::cut:
@@ -329,6 +334,10 @@ const std::vector<Index>& MeshScene::highlighted_elements() const {
 
 void MeshScene::look(ViewDirection direction) {
     parts_->look(direction);
+}
+
+void MeshScene::look_from(const Eigen::RowVector3d& to_eye) {
+    parts_->look_from(to_eye);
 }
 
 void MeshScene::focus_element(Index element) {

@@ -82,6 +82,8 @@ class MeshScene {
 
     /// Sets the camera: `fit` keeps the direction. 2D meshes are always looked at face on, in parallel projection.
     void look(ViewDirection direction);
+    /// The same from anywhere: to_eye points from the mesh to the camera.
+    void look_from(const Eigen::RowVector3d& to_eye);
     /// Moves the camera so that the element fills a good part of the view.
     void focus_element(Index element);
 

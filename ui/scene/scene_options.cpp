@@ -44,7 +44,7 @@ Redrawing redrawing(const SceneOptions& before, const SceneOptions& now) {
         return clip && clip->style == ClipStyle::whole_elements;
     };
     const bool is_clip_changed = before.clip != now.clip;
-    if (before.element_size != now.element_size || before.only_elements != now.only_elements ||
+    if (!has_same_pieces(before, now) || before.only_elements != now.only_elements ||
         (is_clip_changed && (hides_whole(before.clip) || hides_whole(now.clip))))
         return Redrawing::all;
     if (is_clip_changed) return Redrawing::cut;  // the surface is the same, only cut elsewhere

@@ -32,6 +32,7 @@ struct SceneOptions {
     std::optional<ClipPlane> clip;                    ///< 3D meshes only
     bool is_orthographic = false;                     ///< 3D meshes in parallel projection
     double element_size = 1.0;                        ///< below 1: gaps between the elements
+    double magnification = 1.0;                       ///< of a picture from near: curved sides are cut so much finer
     std::optional<std::vector<Index>> only_elements;  ///< the others are hidden
     Color background{1.0, 1.0, 1.0};
     Color foreground{0.1, 0.1, 0.1};  ///< text, legend, axes
@@ -46,6 +47,11 @@ std::optional<CuttingPlane> find_plane(const CurvedMesh& mesh, const std::option
 
 /// What is to be drawn of a mesh: one flag per element; empty = all.
 std::vector<bool> find_visible(const CurvedMesh& mesh, const SceneOptions& options);
+
+/// Whether elements are cut into the same pieces.
+inline bool has_same_pieces(const SceneOptions& before, const SceneOptions& now) {
+    return before.element_size == now.element_size && before.magnification == now.magnification;
+}
 
 /// What has to be made anew of a drawing when its options change.
 enum class Redrawing { nothing, numbers, cut, all };

@@ -17,7 +17,7 @@ ScenePreparation::ScenePreparation(SceneContent content, const MeshDrawing& show
     drawing_->highlighted = std::move(content.highlighted);
     if (drawing_->has_mesh() && shown.has_mesh() &&
         drawing_->mesh().shared_topology() == shown.mesh().shared_topology() &&
-        drawing_->options.element_size == shown.options.element_size &&
+        has_same_pieces(drawing_->options, shown.options) &&
         drawing_->painter.is_on_nodes() == shown.painter.is_on_nodes()) {
         drawing_->take_pieces(shown);
         may_move_ = true;

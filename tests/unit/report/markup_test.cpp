@@ -96,5 +96,22 @@ TEST(ReportCharts, BarsAreAsHighAsTheirCounts) {
     EXPECT_EQ(count_of(histogram_svg(histogram, 99, colors, "title"), "height='73.00'"), 3u);
 }
 
+TEST(ReportCharts, HistogramsStandBesideOneAnotherOnOneScale) {
+    const ReportColors colors{[](double) { return std::string("#112233"); }, "#d6006c", "#7a68a8"};
+    HistogramPanel low{"first & only", {}, {}};
+    low.histogram.valid.resize(ReportHistogram::bins);
+    low.histogram.undecided.resize(ReportHistogram::bins);
+    low.histogram.valid[3] = 9;
+    HistogramPanel high = low;
+    high.histogram.valid[3] = 99;
+    const std::string svg = histograms_document({low, high, low}, colors);
+    EXPECT_EQ(count_of(svg, "height='73.00'"), 2u) << svg;  // half as high as 99, whose logarithm is twice that of 9
+    EXPECT_EQ(count_of(svg, "height='146.00'"), 1u);
+    EXPECT_EQ(count_of(svg, "<svg x='12'"), 2u);  // two in a row
+    EXPECT_EQ(count_of(svg, "first &amp; only</text>"), 3u);
+    EXPECT_EQ(count_of(svg, "<pattern"), 1u);
+    EXPECT_EQ(count_of(histograms_document({low}, colors), "height='146.00'"), 1u);
+}
+
 }  // namespace
 }  // namespace curvewright
