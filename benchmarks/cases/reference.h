@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "benchmarks/warp_tables/cases.h"
+#include "benchmarks/cases/warp_case.h"
 
 namespace curvewright::benchmarks {
 
@@ -33,6 +33,6 @@ struct ReferenceSolve {
 
 /// Eigen's SparseLU with COLAMD on the matrix D_I of all interior nodes, nothing condensed: what the thesis does.
 /// The weights are those of the case; result: where the warp put the nodes.
-ReferenceSolve solve_by_sparse_lu(const Case& problem, const Coordinates& result);
+ReferenceSolve solve_by_sparse_lu(const WarpCase& problem, const Coordinates& result);
 
 }  // namespace curvewright::benchmarks

@@ -1,4 +1,4 @@
-#include "benchmarks/warp_tables/reference.h"
+#include "benchmarks/cases/reference.h"
 
 #include <cmath>
 #include <vector>
@@ -104,7 +104,7 @@ KktOutcome kkt_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
     return outcome;
 }
 
-ReferenceSolve solve_by_sparse_lu(const Case& problem, const Coordinates& result) {
+ReferenceSolve solve_by_sparse_lu(const WarpCase& problem, const Coordinates& result) {
     const CurvedMesh& mesh = problem.mesh;
     const int dim = problem.dimension();
     const Numbering numbering = number_nodes(mesh, given_nodes(problem), false);
