@@ -4,6 +4,7 @@
 #include <vector>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SparseLU>
 
 #include "core/base/error.h"
@@ -102,6 +103,18 @@ KktOutcome kkt_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
     outcome.has_converged = norm <= tolerance;
     weights = w;
     return outcome;
+}
+
+void qr_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights) {
+    const Eigen::Index n = offsets.rows(), m = offsets.cols() + 1;
+    Eigen::MatrixXd transposed(n, m);
+    transposed.leftCols(m - 1) = offsets / offsets.cwiseAbs().maxCoeff();
+    transposed.col(m - 1).setOnes();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(transposed);
+    Eigen::VectorXd t = Eigen::VectorXd::Zero(n);
+    t.head(m) =
+        qr.matrixQR().topRows(m).triangularView<Eigen::Upper>().transpose().solve(Eigen::VectorXd::Unit(m, m - 1));
+    weights = qr.householderQ() * t;
 }
 
 ReferenceSolve solve_by_sparse_lu(const WarpCase& problem, const Coordinates& result) {

@@ -26,6 +26,10 @@ KktOutcome kkt_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                        const Eigen::Ref<const Eigen::VectorXd>& influence, KktSolver solver,
                        Eigen::Ref<Eigen::VectorXd> weights);
 
+/// Algorithm 2 of the thesis: weights of least 2-norm by a reduced QR factorisation of A^T (Householder). offsets:
+/// neighbours × dimension, scaled to the size of the patch like above.
+void qr_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights);
+
 struct ReferenceSolve {
     double seconds = 0.0;     ///< factorisation and solution, without the assembly
     double difference = 0.0;  ///< largest distance of a node from where the warp put it, over the size of the mesh
