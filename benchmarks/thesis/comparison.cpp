@@ -1,7 +1,10 @@
 #include "benchmarks/thesis/comparison.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
+
+#include "benchmarks/thesis/thesis_report.h"
 
 namespace curvewright::benchmarks {
 
@@ -45,40 +48,27 @@ void Comparison::add(By by, const std::string& what, const std::string& method, 
     table_.add(std::move(row));
 }
 
-void Comparison::leave_out(const std::string& what, const std::string& reason) {
+void Comparison::leave_out(const std::string& what, NotRun why, const std::string& explanation) {
     std::vector<Cell> row(table_.columns.size());
     row.front() = what;
     row[1] = "not run";
-    row.back() = reason;
+    row.back() = why == NotRun::quick ? "left out by --quick" : explanation;
     table_.add(std::move(row));
+    lacks_meshes_ = lacks_meshes_ || why == NotRun::missing;
 }
 
 Table Comparison::table() const {
-    return table_;
+    Table sorted = table_;
+    std::map<std::string, std::size_t> place;
+    for (const auto& row : table_.rows) place.emplace(row.front().exact, place.size());
+    std::stable_sort(sorted.rows.begin(), sorted.rows.end(), [&](const auto& a, const auto& b) {
+        return place.at(a.front().exact) < place.at(b.front().exact);
+    });
+    return sorted;
 }
 
-Target Comparison::completeness() const {
-    std::string missing;
-    for (const std::string& what : expected_)
-        if (!measured_.contains(what)) missing += (missing.empty() ? "; not run: " : ", ") + what;
-    const auto done = std::count_if(expected_.begin(), expected_.end(),
-                                    [&](const std::string& what) { return measured_.contains(what); });
-    return {id_.text() + ": everything in it was run", fmt::format("{} of {}", expected_.size(), expected_.size()),
-            fmt::format("{} of {}{}", done, expected_.size(), missing), missing.empty()};
-}
-
-void add_if_wanted(const Settings& settings, Report& report, const Comparison& comparison,
-                   std::vector<Picture> pictures) {
-    if (!settings.wants(comparison.id().kind, comparison.id().number)) return;
-    report.add(comparison.table(), std::move(pictures));
-    report.add(comparison.completeness());
-}
-
-void add_if_wanted(const Settings& settings, Report& report, const Comparison& comparison,
-                   const std::vector<Plot>& plots) {
-    if (!settings.wants(comparison.id().kind, comparison.id().number)) return;
-    report.add(comparison.table(), plots);
-    report.add(comparison.completeness());
+bool Comparison::is_complete() const {
+    return std::includes(measured_.begin(), measured_.end(), expected_.begin(), expected_.end());
 }
 
 void Tally::add(bool holds, const std::string& name) {
@@ -87,8 +77,12 @@ void Tally::add(bool holds, const std::string& name) {
     if (!holds) others_ += (others_.empty() ? "; not " : ", ") + name;
 }
 
-void Tally::tell_in(Report& report, const std::string& what, const std::string& promised) const {
-    if (all_) report.add(Target{what, promised, fmt::format("{} of {}{}", held_, all_, others_), held_ == all_});
+Target Tally::target(const std::string& what, const std::string& promised) const {
+    return {what, promised, fmt::format("{} of {}{}", held_, all_, others_), held_ == all_};
+}
+
+void Tally::tell_in(ThesisReport& report, const std::string& what, const std::string& promised) const {
+    if (all_) report.add(target(what, promised));
 }
 
 Cell fixed(double number) {

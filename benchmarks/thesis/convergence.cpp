@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "benchmarks/cases/timed.h"
-#include "benchmarks/thesis/comparison.h"
 #include "benchmarks/thesis/distortion.h"
 #include "benchmarks/thesis/measurements.h"
 #include "benchmarks/thesis/published.h"
@@ -54,7 +53,7 @@ class SimplexCourse : public UntangleObserver {
 
 }  // namespace
 
-void measure_convergence(const Settings& settings, Report& report) {
+void measure_convergence(const Settings& settings, ThesisReport& report) {
     if (!settings.wants("figure", "4.2")) return;
     tell("figure 4.2");
     const UntangleCase problem = motivating_example();
@@ -88,23 +87,28 @@ void measure_convergence(const Settings& settings, Report& report) {
                                  formatted(displacement + angle, "{:.4f}")};
     };
     Series theirs{"thesis", 1, true, {}}, ours{"this program", 0, false, {}};
-    for (const auto& step : published::convergence_steps()) {
-        table.add(By::thesis, fmt::format("{}", step.iteration), "",
-                  {formatted(step.displacement_term, "{:.4f}"), formatted(step.angle_term, "{:.4f}"),
-                   formatted(step.objective, "{:.4f}")});
-        theirs.points.emplace_back(step.iteration, step.objective);
-    }
+    const auto add_published = [&](int iteration) {
+        for (const auto& step : published::convergence_steps()) {
+            if (step.iteration != iteration) continue;
+            table.add(By::thesis, fmt::format("{}", iteration), "",
+                      {formatted(step.displacement_term, "{:.4f}"), formatted(step.angle_term, "{:.4f}"),
+                       formatted(step.objective, "{:.4f}")});
+            theirs.points.emplace_back(iteration, step.objective);
+        }
+    };
+    add_published(0);
     table.add(By::literal, "0", "Nelder-Mead", row(0.0, course.start), "the node where it was");
     ours.points.emplace_back(0.0, course.start);
     for (const auto& step : course.steps) {
         if (step.iteration == 0) continue;
+        add_published(step.iteration);
         table.add(By::literal, fmt::format("{}", step.iteration), "Nelder-Mead",
                   row(step.displacement_term, step.angle_term));
         ours.points.emplace_back(step.iteration, step.objective.front());
     }
     Plot plot{"figure_4.2", "Figure 4.2: convergence of the simplex method", "iteration", "f", {ours, theirs}};
     plot.has_linear_x = true;
-    add_if_wanted(settings, report, table, std::vector<Plot>{plot});
+    report.add(table, std::vector<Plot>{plot});
     if (course.steps.empty()) return;
     const auto& last = published::convergence_steps().back();
     const double end = course.steps.back().objective.front();

@@ -1,7 +1,6 @@
 #include <map>
 #include <optional>
 
-#include "benchmarks/thesis/comparison.h"
 #include "benchmarks/thesis/measurements.h"
 #include "benchmarks/thesis/published.h"
 #include "benchmarks/thesis/warp_times.h"
@@ -9,8 +8,6 @@
 
 namespace curvewright::benchmarks {
 namespace {
-
-const char* const left_out_by_quick = "left out by --quick";
 
 const char* family_name(int dimension) {
     return dimension == 2 ? "circle" : "sphere";
@@ -33,7 +30,7 @@ Comparison counts_of(const Settings& settings, int dimension) {
                    {level.elements, level.nodes_p2, level.interior_p2, level.nodes_p3, level.interior_p3},
                    level.remark);
         if (!is_run(settings, dimension, level.level)) {
-            counts.leave_out(what, left_out_by_quick);
+            counts.leave_out(what, NotRun::quick);
             continue;
         }
         try {
@@ -47,7 +44,7 @@ Comparison counts_of(const Settings& settings, int dimension) {
             }
             counts.add(By::here, what, "remade", cells);
         } catch (const InvalidInput& error) {
-            counts.leave_out(what, error.what());
+            counts.leave_out(what, NotRun::missing, error.what());
         }
     }
     return counts;
@@ -79,15 +76,15 @@ std::vector<Cell> solve_cells(Index nodes, const PhaseTimes& times) {
 
 }  // namespace
 
-void count_families(const Settings& settings, Report& report) {
+void count_families(const Settings& settings, ThesisReport& report) {
     for (const int dimension : {2, 3})
-        if (settings.wants("table", dimension == 2 ? "2.1" : "2.2")) {
-            tell(fmt::format("table {}", dimension == 2 ? "2.1" : "2.2"));
-            add_if_wanted(settings, report, counts_of(settings, dimension));
+        if (const char* number = dimension == 2 ? "2.1" : "2.2"; settings.wants("table", number)) {
+            tell(fmt::format("table {}", number));
+            report.add(counts_of(settings, dimension));
         }
 }
 
-void measure_families(const Settings& settings, Report& report) {
+void measure_families(const Settings& settings, ThesisReport& report) {
     if (!settings.wants_any({{"figure", "2.2"}, {"figure", "2.3"}})) return;
     Comparison weights({"figure", "2.2"}, "times of the weights",
                        fmt::format("Seconds on {} threads for the weights of all interior nodes. The thesis shows "
@@ -104,7 +101,7 @@ void measure_families(const Settings& settings, Report& report) {
         "left out above the limit that the remark names.",
         "mesh", {"interior nodes", "affine, s", "convex, s"});
     std::vector<Plot> weight_plots, solve_plots;
-    Tally quicker_weights, quicker_solves;
+    Tally quicker_weights, quicker_solves, solved;
     for (const int dimension : {2, 3}) {
         Curves weight_curves, solve_curves;
         for (const int order : {2, 3})
@@ -112,26 +109,27 @@ void measure_families(const Settings& settings, Report& report) {
                 const std::string what = fmt::format("{} {}, P{}", family_name(dimension), level.level, order);
                 weights.expect(what);
                 solves.expect(what);
-                const auto leave_out = [&](const std::string& reason) {
-                    weights.leave_out(what, reason);
-                    solves.leave_out(what, reason);
+                const auto leave_out = [&](NotRun why, const std::string& explanation = "") {
+                    weights.leave_out(what, why, explanation);
+                    solves.leave_out(what, why, explanation);
                 };
                 if (!is_run(settings, dimension, level.level)) {
-                    leave_out(left_out_by_quick);
+                    leave_out(NotRun::quick);
                     continue;
                 }
                 std::optional<WarpCase> problem;
                 try {
                     problem = family_case(settings.families, dimension, level.level, order);
                 } catch (const InvalidInput& error) {
-                    leave_out(error.what());
+                    leave_out(NotRun::missing, error.what());
                     continue;
                 }
                 const auto nodes = static_cast<Index>(problem->mesh.topology().interior_nodes().size());
                 const Index limit = dimension == 2 ? settings.family_lu_limit_2d : settings.family_lu_limit_3d;
                 const bool runs_lu = nodes <= limit && settings.wants("figure", "2.3");
                 tell(fmt::format("figures 2.2 and 2.3: {}, {} nodes", what, nodes));
-                const WarpTimes times = measure_warp_times(*problem, settings, runs_lu);
+                const WarpTimes times =
+                    measure_warp_times(*problem, settings, runs_lu ? LiteralSolves::both : LiteralSolves::none);
                 const auto weight_cells = [&](const PhaseTimes& t) {
                     return std::vector<Cell>{nodes, t.neighbours, t.affine_weights, t.convex_weights};
                 };
@@ -152,6 +150,7 @@ void measure_families(const Settings& settings, Report& report) {
                 weight_curves.add(name("convex", "Alg. 3"), color + 1, true, x, times.literal.convex_weights);
                 weight_curves.add(name("affine", "this program"), color, false, x, times.own.affine_weights);
                 weight_curves.add(name("convex", "this program"), color + 1, false, x, times.own.convex_weights);
+                solved.add(runs_lu, what);
                 if (runs_lu) {
                     solve_curves.add(name("affine", "SparseLU"), color, true, x, *times.literal.affine_solve);
                     solve_curves.add(name("convex", "SparseLU"), color + 1, true, x, *times.literal.convex_solve);
@@ -170,12 +169,14 @@ void measure_families(const Settings& settings, Report& report) {
              fmt::format("Figure 2.3 ({}): linear system on the {} family", part, family_name(dimension)),
              "interior nodes", "seconds", solve_curves.series()});
     }
-    add_if_wanted(settings, report, weights, weight_plots);
+    report.add(weights, weight_plots);
     if (settings.wants("figure", "2.2"))
         quicker_weights.tell_in(report, "figure 2.2: convex weights quicker than Algorithm 3", "all meshes");
-    add_if_wanted(settings, report, solves, solve_plots);
-    if (settings.wants("figure", "2.3"))
-        quicker_solves.tell_in(report, "figure 2.3: linear system quicker than SparseLU", "all meshes");
+    report.add(solves, solve_plots);
+    if (settings.wants("figure", "2.3")) {
+        solved.tell_in(report, "figure 2.3: SparseLU was run", "all meshes within its limit of nodes");
+        quicker_solves.tell_in(report, "figure 2.3: linear system quicker than SparseLU", "all of these meshes");
+    }
 }
 
 }  // namespace curvewright::benchmarks

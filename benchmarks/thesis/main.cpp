@@ -1,6 +1,9 @@
 // The tables of docs/thesis: every table of the thesis with what this program makes of it.
 
+#include <optional>
+
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include "benchmarks/thesis/measurements.h"
@@ -10,6 +13,16 @@
 namespace curvewright::benchmarks {
 namespace {
 
+/// The options of the run that change its numbers.
+std::string arguments(const Settings& settings) {
+    std::string text;
+    if (settings.is_quick) text += " --quick";
+    if (!settings.only.empty()) text += fmt::format(" --only \"{}\"", fmt::join(settings.only, ","));
+    if (settings.example_lu_limit != Settings().example_lu_limit)
+        text += fmt::format(" --lu-limit {}", settings.example_lu_limit);
+    return text;
+}
+
 std::string introduction(const Settings& settings, double seconds) {
     return fmt::format(
         R"(# The thesis's tables
@@ -17,7 +30,7 @@ std::string introduction(const Settings& settings, double seconds) {
 Every table of M. Stees, "Optimization-based Methods in High-Order Mesh Generation and Untangling", and every figure with
 numbers, next to what this program makes of it. [pictures.md](pictures.md) shows the meshes.
 
-Written by `curvewright-thesis{}{}` in {:.0f} s ({}, {} threads, compiler {}).{} All numbers but those of the thesis and of the
+Written by `curvewright-thesis{}` in {:.0f} s ({}, {} threads, compiler {}).{} All numbers but those of the thesis and of the
 peers come from this one run; short measurements are the best of several.
 
 - **thesis**: what is printed there, measured on its meshes and machines.
@@ -33,12 +46,15 @@ peers come from this one run; short measurements are the best of several.
 cmake --preset release -DCURVEWRIGHT_BUILD_BENCHMARKS=ON && cmake --build build --target curvewright-thesis
 sample_meshes/families/generate.sh                        # meshes of figures 2.2 and 2.3, with Gmsh
 /usr/bin/python3 sample_meshes/generate.py moving_spheres # the largest example, with Gmsh
-build/bin/curvewright-thesis                              # --quick: small meshes; --only 2.1,4.6: some tables
+build/bin/curvewright-thesis{}
 ```
 
+`--quick` takes the small meshes, `--only 2.1,4.6` some tables. `--lu-limit 90000` runs SparseLU on the moving sphere too,
+which takes minutes: without it the run takes less than ten on two idle cores.
+
 )",
-        settings.is_quick ? " --quick" : "", settings.only.empty() ? "" : " --only …", seconds, processor(),
-        settings.threads, __VERSION__, load_remark(settings.load_before));
+        arguments(settings), seconds, processor(), settings.threads, __VERSION__, load_remark(settings.load_before),
+        arguments(settings));
 }
 
 }  // namespace
@@ -52,8 +68,10 @@ int main(int argc, char** argv) {
     settings.samples = CURVEWRIGHT_SAMPLES;
     settings.families = "build/families";
     settings.peers = CURVEWRIGHT_THESIS_PEERS;
-    std::filesystem::path out = "docs/thesis";
-    app.add_option("--out", out, "Folder for README.md, CSV and SVG files; \"\" writes none")->capture_default_str();
+    std::optional<std::filesystem::path> out;
+    app.add_option("--out", out,
+                   "Folder for README.md, CSV and SVG files; \"\" writes none. Default: docs/thesis, or build/thesis "
+                   "with --quick or --only");
     app.add_option("--samples", settings.samples, "The folder sample_meshes");
     app.add_option("--families", settings.families, "Meshes made by sample_meshes/families/generate.sh")
         ->capture_default_str();
@@ -71,7 +89,7 @@ int main(int argc, char** argv) {
         set_thread_count(settings.threads);
         const Stopwatch watch;
         const Peers peers(settings.peers);
-        Report report;
+        ThesisReport report(settings);
         measure_sparsity(settings, report);
         count_families(settings, report);
         measure_families(settings, report);
@@ -79,8 +97,14 @@ int main(int argc, char** argv) {
         measure_unsigned_angles(settings, peers, report);
         measure_signed_angles(settings, peers, report);
         measure_convergence(settings, report);
-        report.finish({"README", introduction(settings, watch.seconds())}, out);
+        report.finish({"README", introduction(settings, watch.seconds())},
+                      out.value_or(settings.is_quick || !settings.only.empty() ? "build/thesis" : "docs/thesis"));
         tell(fmt::format("{:.0f} s.", watch.seconds()));
+        if (!report.lacking().empty()) {
+            tell(fmt::format("Meshes are missing for {}; the remarks there say how to make them.",
+                             fmt::join(report.lacking(), ", ")));
+            return 2;
+        }
     } catch (const std::exception& error) {
         tell(error.what());
         return 1;

@@ -28,8 +28,10 @@ struct Settings {
     bool is_quick = false;
     int threads = 2;
     double load_before = 0.0;  ///< processes that wanted a processor in the minute before the run
-    /// Most interior nodes of a mesh of the families, 2D and 3D, and of an example for which SparseLU is run.
-    Index family_lu_limit_2d = 300000, family_lu_limit_3d = 40000, example_lu_limit = 90000;
+    /// Most interior nodes of a mesh of the families, 2D and 3D, and of an example for which SparseLU is run; of
+    /// examples with more than example_both_limit for convex weights only.
+    Index family_lu_limit_2d = 130000, family_lu_limit_3d = 23000, example_lu_limit = 65000;
+    Index example_both_limit = 65000;
 
     Repeats repeats() const { return is_quick ? Repeats{0.5, 0.05} : Repeats{2.0, 0.3}; }
     bool wants(const std::string& kind, const std::string& number) const;

@@ -5,7 +5,6 @@
 
 #include "benchmarks/cases/sample_files.h"
 #include "benchmarks/cases/timed.h"
-#include "benchmarks/thesis/comparison.h"
 #include "benchmarks/thesis/distortion.h"
 #include "benchmarks/thesis/measurements.h"
 #include "benchmarks/thesis/published.h"
@@ -69,8 +68,8 @@ void compare(const published::UnsignedExample& example, const std::string& sampl
     const MeshDistortion guaranteed = distortion_of(problem, runs.guaranteed.result.coordinates);
     const char* const result = "resulting mesh";
     figure.add(By::literal, result, "Alg. 4 and 5, " + order, with_time(cells(literal), runs.literal.seconds),
-               fmt::format("{} passes", runs.literal.result.passes) +
-                   (literal.not_valid ? "; stalls on the remade mesh, whose tangling is deep" : ""));
+               fmt::format("{} pass{}{}", runs.literal.result.passes, runs.literal.result.passes == 1 ? "" : "es",
+                           literal.not_valid ? "; ends where the sum of the angles is flat, see METHODS.md" : ""));
     figure.add(By::best, result, "unsigned angles, several starts, " + order,
                with_time(cells(several), runs.several.seconds));
     figure.add(By::best, result, "guaranteed method, " + order, with_time(cells(guaranteed), runs.guaranteed.seconds),
@@ -110,7 +109,7 @@ void compare(const published::UnsignedExample& example, const std::string& sampl
 
 }  // namespace
 
-void measure_unsigned_angles(const Settings& settings, const Peers& peers, Report& report) {
+void measure_unsigned_angles(const Settings& settings, const Peers& peers, ThesisReport& report) {
     Comparison times({"table", "3.1"}, "unsigned angles, times", "Wall clock. Thesis: Matlab R2017b on a Xeon W3520.",
                      "example", {"elements", "passes", "s", "least", "not valid"});
     std::vector<Comparison> figures;
@@ -138,8 +137,8 @@ void measure_unsigned_angles(const Settings& settings, const Peers& peers, Repor
         figures.push_back(std::move(figure));
     }
     if (figures.empty()) return;
-    add_if_wanted(settings, report, times);
-    for (const Comparison& figure : figures) add_if_wanted(settings, report, figure);
+    report.add(times);
+    for (const Comparison& figure : figures) report.add(figure);
     tallies.literal.tell_in(report, "unsigned angles, literal: valid, and the thesis's minimum reached",
                             "all examples");
     tallies.several.tell_in(report, "unsigned angles, several starts: valid, and above the thesis's minimum",

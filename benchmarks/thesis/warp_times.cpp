@@ -45,7 +45,7 @@ WarpCase as_published(const WarpCase& problem, Weighting weighting) {
     return same;
 }
 
-WarpTimes measure_warp_times(const WarpCase& problem, const Settings& settings, bool runs_lu) {
+WarpTimes measure_warp_times(const WarpCase& problem, const Settings& settings, LiteralSolves solves) {
     const Repeats repeats = settings.repeats();
     WarpTimes times;
     std::vector<Index> free;
@@ -70,18 +70,22 @@ WarpTimes measure_warp_times(const WarpCase& problem, const Settings& settings, 
         (is_affine ? times.own.affine_solve : times.own.convex_solve) = warp.remaining_seconds();
     }
 
-    if (runs_lu) {
-        // One thread each: both at the same time take half as long.
-        const auto solve = [&](Weighting weighting) {
-            const WarpCase published = as_published(problem, weighting);
-            return solve_by_sparse_lu(published, timed_warp(published).result.coordinates);
-        };
-        const auto policy = settings.threads > 1 ? std::launch::async : std::launch::deferred;
-        auto affine = std::async(policy, solve, Weighting::affine);
-        const ReferenceSolve with_convex = solve(Weighting::convex), with_affine = affine.get();
-        times.literal.affine_solve = with_affine.seconds;
-        times.literal.convex_solve = with_convex.seconds;
-        times.difference = std::max(with_affine.difference, with_convex.difference);
+    if (solves == LiteralSolves::none) return times;
+    const auto solve = [&](Weighting weighting) {
+        const WarpCase published = as_published(problem, weighting);
+        return solve_by_sparse_lu(published, timed_warp(published).result.coordinates);
+    };
+    std::future<ReferenceSolve> affine;
+    if (solves == LiteralSolves::both)
+        affine =
+            std::async(settings.threads > 1 ? std::launch::async : std::launch::deferred, solve, Weighting::affine);
+    const ReferenceSolve convex_solve = solve(Weighting::convex);
+    times.literal.convex_solve = convex_solve.seconds;
+    times.difference = convex_solve.difference;
+    if (affine.valid()) {
+        const ReferenceSolve affine_solve = affine.get();
+        times.literal.affine_solve = affine_solve.seconds;
+        times.difference = std::max(times.difference, affine_solve.difference);
     }
     return times;
 }

@@ -24,8 +24,11 @@ struct WarpTimes {
     PhaseTimes own;
 };
 
-/// runs_lu: whether the literal linear systems are solved, both at the same time.
-WarpTimes measure_warp_times(const WarpCase& problem, const Settings& settings, bool runs_lu);
+/// Which of the literal linear systems are solved.
+enum class LiteralSolves { none, convex, both };
+
+/// Both literal systems are solved at the same time.
+WarpTimes measure_warp_times(const WarpCase& problem, const Settings& settings, LiteralSolves solves);
 
 /// The same problem with the thesis's weights, in which all neighbours count alike, of one kind.
 WarpCase as_published(const WarpCase& problem, Weighting weighting);
