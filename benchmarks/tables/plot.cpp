@@ -11,7 +11,7 @@
 namespace curvewright::benchmarks {
 namespace {
 
-constexpr double picture_width = 720, picture_height = 480;
+constexpr double picture_height = 480;
 constexpr double left = 78, right = 700, top = 48, bottom = 420;
 
 constexpr const char* style = R"(<style>
@@ -75,6 +75,10 @@ std::string marker(const Series& series, double x, double y) {
 }  // namespace
 
 std::string as_svg(const Plot& plot) {
+    // Many curves have their legend beside the plot instead of in its upper left corner.
+    const bool is_legend_beside = plot.series.size() > 4;
+    const double picture_width = is_legend_beside ? 990 : 720;
+    const double legend_left = is_legend_beside ? right : left;
     Range x_range, y_range;
     x_range.is_linear = plot.has_linear_x;
     const auto is_shown = [&](double x, double y) { return (x > 0.0 || (plot.has_linear_x && x == 0.0)) && y > 0.0; };
@@ -158,16 +162,16 @@ std::string as_svg(const Plot& plot) {
         for (const auto& [x, y] : series.points)
             if (is_shown(x, y)) svg += marker(series, place_x(x), place_y(y));
         svg += fmt::format("<line class=\"line c{0}{1}\" x1=\"{2}\" x2=\"{3}\" y1=\"{4}\" y2=\"{4}\"/>\n", series.color,
-                           dashed, left + 14, left + 50, legend);
-        svg += marker(series, left + 32, legend);
-        svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left + 60, legend + 4, escaped(series.name));
+                           dashed, legend_left + 14, legend_left + 50, legend);
+        svg += marker(series, legend_left + 32, legend);
+        svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", legend_left + 60, legend + 4, escaped(series.name));
         legend += 20;
     }
     if (has_guide)
         svg += fmt::format(
             "<line class=\"guide\" stroke-dasharray=\"2 4\" x1=\"{0}\" x2=\"{1}\" y1=\"{2}\" y2=\"{2}\"/>\n"
             "<text class=\"small\" x=\"{3}\" y=\"{4}\">slope 1: proportional to the number of nodes</text>\n",
-            left + 14, left + 50, legend, left + 60, legend + 4);
+            legend_left + 14, legend_left + 50, legend, legend_left + 60, legend + 4);
     return svg + "</svg>\n";
 }
 

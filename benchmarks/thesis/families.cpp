@@ -89,14 +89,14 @@ void measure_families(const Settings& settings, ThesisReport& report) {
     Comparison weights({"figure", "2.2"}, "times of the weights",
                        fmt::format("Seconds on {} threads for the weights of all interior nodes. The thesis shows "
                                    "plots without numbers. Literal: Algorithm 2 (QR) and Algorithm 3 (Newton's method "
-                                   "on the KKT system). Best: this program's, the assembly of the equations included.",
+                                   "on the KKT system). Best: this program's.",
                                    settings.threads),
                        "mesh", {"interior nodes", "neighbours, s", "affine weights, s", "convex weights, s"});
     Comparison solves(
         {"figure", "2.3"}, "times of the linear systems",
         "Seconds for the linear system with all its right-hand sides. Literal: Eigen's SparseLU with "
         "COLAMD on the matrix of all interior nodes; affine and convex at the same time, one thread each. "
-        "Best: everything of a warp but neighbours and weights: numbering, condensation, "
+        "Best: everything of a warp but neighbours and weights: numbering, equations, condensation, "
         "preconditioner, solution, coordinates. In 3D the factors grow faster than the mesh; SparseLU is "
         "left out above the limit that the remark names.",
         "mesh", {"interior nodes", "affine, s", "convex, s"});

@@ -34,18 +34,13 @@ Peers::Peers(const std::filesystem::path& file) {
         ++number;
         if (line.empty() || line.front() == '#') continue;
         const auto fields = fields_of(line);
-        if (fields.size() != 8) throw InvalidInput(file.string(), number, "8 fields were expected.");
+        if (fields.size() != 9) throw InvalidInput(file.string(), number, "9 fields were expected.");
         if (!std::exchange(has_header, true)) continue;
         try {
-            PeerResult result{fields[0],
-                              fields[1],
-                              fields[2],
-                              std::stod(fields[3]),
-                              std::stod(fields[4]),
-                              {},
-                              std::stoi(fields[6]),
-                              std::stod(fields[7])};
-            if (!fields[5].empty()) result.largest = std::stod(fields[5]);
+            PeerResult result{fields[0], std::stoi(fields[1]), fields[2],
+                              fields[3], std::stod(fields[4]), std::stod(fields[5]),
+                              {},        std::stoi(fields[7]), std::stod(fields[8])};
+            if (!fields[6].empty()) result.largest = std::stod(fields[6]);
             results_.push_back(std::move(result));
         } catch (const std::logic_error&) {
             throw InvalidInput(file.string(), number, "a field is no number.");

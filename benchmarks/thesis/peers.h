@@ -11,7 +11,9 @@ namespace curvewright::benchmarks {
 
 /// What another program made of an example.
 struct PeerResult {
-    std::string sample, program, setting;
+    std::string sample;
+    Index elements = 0;  ///< of the mesh it was run on
+    std::string program, setting;
     double least = 0.0, mean = 0.0;
     std::optional<double> largest;
     Index not_valid = 0;

@@ -38,6 +38,7 @@ struct WarpExample {
     Index interior_nodes = 0;
     double neighbours = 0.0, affine_weights = 0.0, affine_solve = 0.0, convex_weights = 0.0, convex_solve = 0.0;
     Distortion affine, convex;
+    const char* remark = "";
 };
 std::span<const WarpExample> warp_examples();
 

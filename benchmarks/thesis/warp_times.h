@@ -20,7 +20,7 @@ struct WarpTimes {
     PhaseTimes literal;
     Index unconverged = 0;    ///< nodes at which Alg. 3 did not end with a residual of 1e-8
     double difference = 0.0;  ///< between SparseLU's and this program's result, over the size of the mesh
-    /// This program: weights include the assembly, the solution all the rest.
+    /// This program's own weights, and its solution: all the rest of a warp.
     PhaseTimes own;
 };
 

@@ -43,8 +43,9 @@ struct Tables {
         {"table", "2.4"},
         "the warps, their times",
         "Wall clock. Thesis: Xeon E5-2680 v3. Literal: Algorithms 2 and 3 on all threads, Eigen's SparseLU "
-        "with COLAMD on one, the two systems at the same time. Best: this program's weights (assembly "
-        "included) and solver (everything else of a warp included). The elastic body has no weights: "
+        "with COLAMD on one, the two systems at the same time. Best: this program's weights and solver (everything "
+        "else of a "
+        "warp included). The elastic body has no weights: "
         "its time is that of the whole warp.",
         "example",
         {"neighbours, s", "affine weights, s", "affine solve, s", "convex weights, s", "convex solve, s",
@@ -61,17 +62,22 @@ struct Tables {
     Tally literal_near, best_above, best_valid, quicker, above_peer;
 };
 
-void add_peers(const published::WarpExample& example, const Peers& peers, Tables& tables) {
+void add_peers(const published::WarpExample& example, Index elements, const Peers& peers, Tables& tables) {
+    const auto remark = [&](const PeerResult& peer) {
+        return peer.elements == elements ? std::string()
+                                         : fmt::format("on a mesh of {} elements", Cell(peer.elements).shown);
+    };
     if (const PeerResult* affine = peers.find(example.sample, "affine weights"))
         tables.times.add(By::peer, example.name, affine->name(),
-                         {Cell(), Cell(), Cell(), Cell(), Cell(), affine->seconds}, "affine weights");
+                         {Cell(), Cell(), Cell(), Cell(), Cell(), affine->seconds}, remark(*affine));
     if (const PeerResult* elastic = peers.find(example.sample, "elastic body"))
         tables.times.add(By::peer, example.name, elastic->name(),
-                         {Cell(), Cell(), Cell(), Cell(), Cell(), elastic->seconds});
+                         {Cell(), Cell(), Cell(), Cell(), Cell(), elastic->seconds}, remark(*elastic));
     if (const PeerResult* best = peers.best(example.sample))
         tables.quality.add(By::peer, example.name, best->name(),
                            {"", fixed(best->least), fixed(best->mean), best->largest ? fixed(*best->largest) : Cell(),
-                            best->not_valid, best->seconds});
+                            best->not_valid, best->seconds},
+                           remark(*best));
 }
 
 /// A result of table 2.5.
@@ -136,7 +142,8 @@ void measure_warps(const Settings& settings, const Peers& peers, ThesisReport& r
     if (!wants_times && !wants_quality && !settings.wants("table", "2.3")) return;
     Tables tables;
     for (const auto& example : published::warp_examples()) {
-        tables.counts.add(By::thesis, example.name, "", {example.elements, example.order, example.interior_nodes});
+        tables.counts.add(By::thesis, example.name, "", {example.elements, example.order, example.interior_nodes},
+                          example.remark);
         tables.times.add(By::thesis, example.name, "",
                          {example.neighbours, example.affine_weights, example.affine_solve, example.convex_weights,
                           example.convex_solve});
@@ -185,7 +192,7 @@ void measure_warps(const Settings& settings, const Peers& peers, ThesisReport& r
             tell(fmt::format("table 2.5: {}", example.name));
             compare_quality(example, *problem, settings, peers, tables);
         }
-        add_peers(example, peers, tables);
+        add_peers(example, topology.element_count(), peers, tables);
     }
     report.add(tables.counts);
     report.add(tables.times);
