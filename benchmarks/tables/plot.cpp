@@ -77,7 +77,7 @@ std::string marker(const Series& series, double x, double y) {
 std::string as_svg(const Plot& plot) {
     // Many curves have their legend beside the plot instead of in its upper left corner.
     const bool is_legend_beside = plot.series.size() > 4;
-    const double picture_width = is_legend_beside ? 990 : 720;
+    const double picture_width = is_legend_beside ? 1060 : 720;
     const double legend_left = is_legend_beside ? right : left;
     Range x_range, y_range;
     x_range.is_linear = plot.has_linear_x;
