@@ -30,14 +30,14 @@ std::string introduction(const Settings& settings, double seconds) {
 Every table of M. Stees, "Optimization-based Methods in High-Order Mesh Generation and Untangling", and every figure with
 numbers, next to what this program makes of it. [pictures.md](pictures.md) shows the meshes.
 
-Written by `curvewright-thesis{}` in {:.0f} s ({}, {} threads, compiler {}).{} All numbers but those of the thesis and of the
-peers come from this one run; short measurements are the best of several.
+Written by `curvewright-thesis{}` in {:.0f} s ({}, {} threads, compiler {}).{}
+All numbers but those of the thesis and of the peers come from this one run; short measurements are the best of several.
 
 - **thesis**: what is printed there, measured on its meshes and machines.
 - **here**: the remade example before any method. The thesis gives names, counts and results of its examples, but no
   dimensions: the meshes are remade so that counts and starting minima agree ([MANIFEST](../../sample_meshes/MANIFEST)).
 - **literal**: the thesis's method as published, on the remade mesh. Its displacement term has a unit of length, so the
-  thesis's beta belongs to the thesis's meshes; the tables show it as well as one that suits the remade mesh.
+  thesis's beta belongs to the thesis's meshes; the tables show it as well as those that suit the remade mesh.
   [METHODS.md](../METHODS.md) says where the literal methods stall, and why.
 - **best**: what this program has beyond the thesis.
 - **peer**: other programs on the same files, measured once ([peers.csv](../../benchmarks/thesis/peers.csv) says how).

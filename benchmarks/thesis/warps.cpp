@@ -52,7 +52,8 @@ struct Tables {
          "whole warp, s"}};
     Comparison quality{{"table", "2.5"},
                        "the warps, scaled Jacobian",
-                       "Certified min J / max J. Literal: all neighbours count alike. Best: convex weights in which "
+                       "Certified min J / max J. Literal: all neighbours count alike; minima depend on dimensions, "
+                       "which the thesis does not give. Best: convex weights in which "
                        "near neighbours count more (the default), the elastic body, and on meshes of at most 10,000 "
                        "interior nodes the guaranteed method after the best of these. Peer: the best result of "
                        "another program that leaves nothing invalid; where the boundary moves far, Gmsh's optimizers "
