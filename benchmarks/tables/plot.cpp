@@ -11,7 +11,7 @@
 namespace curvewright::benchmarks {
 namespace {
 
-constexpr double picture_width = 720, picture_height = 480;
+constexpr double picture_height = 480;
 constexpr double left = 78, right = 700, top = 48, bottom = 420;
 
 constexpr const char* style = R"(<style>
@@ -30,6 +30,7 @@ constexpr const char* style = R"(<style>
 
 struct Range {
     double low = std::numeric_limits<double>::infinity(), high = 0.0;
+    bool is_linear = false;
 
     void include(double value) {
         low = std::min(low, value);
@@ -37,10 +38,12 @@ struct Range {
     }
     /// A little room at both ends.
     void widen() {
-        low /= 1.4;
-        high *= 1.4;
+        low = is_linear ? 0.0 : low / 1.4;
+        high *= is_linear ? 1.05 : 1.4;
     }
-    double fraction(double value) const { return std::log(value / low) / std::log(high / low); }
+    double fraction(double value) const {
+        return is_linear ? (value - low) / (high - low) : std::log(value / low) / std::log(high / low);
+    }
 };
 
 std::string power_of_ten(int exponent) {
@@ -72,10 +75,16 @@ std::string marker(const Series& series, double x, double y) {
 }  // namespace
 
 std::string as_svg(const Plot& plot) {
+    // Many curves have their legend beside the plot instead of in its upper left corner.
+    const bool is_legend_beside = plot.series.size() > 4;
+    const double picture_width = is_legend_beside ? 1060 : 720;
+    const double legend_left = is_legend_beside ? right : left;
     Range x_range, y_range;
+    x_range.is_linear = plot.has_linear_x;
+    const auto is_shown = [&](double x, double y) { return (x > 0.0 || (plot.has_linear_x && x == 0.0)) && y > 0.0; };
     for (const Series& series : plot.series)
         for (const auto& [x, y] : series.points)
-            if (x > 0.0 && y > 0.0) {
+            if (is_shown(x, y)) {
                 x_range.include(x);
                 y_range.include(y);
             }
@@ -92,6 +101,7 @@ std::string as_svg(const Plot& plot) {
         picture_width, picture_height, escaped(plot.title), style, left);
     // Grid: decades, and their multiples without a label.
     const auto for_decades = [](const Range& range, const auto& call) {
+        if (range.is_linear) return;
         for (int e = static_cast<int>(std::floor(std::log10(range.low))); std::pow(10.0, e) < range.high; ++e)
             for (int k = 1; k < 10; ++k) {
                 const double value = k * std::pow(10.0, e);
@@ -106,6 +116,15 @@ std::string as_svg(const Plot& plot) {
             svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", x, bottom + 21,
                                power_of_ten(exponent));
     });
+    if (x_range.is_linear) {
+        const double step = std::pow(10.0, std::floor(std::log10(x_range.high / 4.0)));
+        const double distance = step * (x_range.high / step > 20.0 ? 5.0 : x_range.high / step > 8.0 ? 2.0 : 1.0);
+        for (double value = 0.0; value < x_range.high; value += distance)
+            svg += fmt::format(
+                "<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>\n<text x=\"{0:.1f}\" "
+                "y=\"{3}\" text-anchor=\"middle\">{4:g}</text>\n",
+                place_x(value), top, bottom + 5, bottom + 21, value);
+    }
     for_decades(y_range, [&](double value, bool is_power, int exponent) {
         const double y = place_y(value);
         svg += fmt::format("<line class=\"grid\" x1=\"{1}\" x2=\"{2}\" y1=\"{0:.1f}\" y2=\"{0:.1f}\"/>\n", y,
@@ -122,7 +141,8 @@ std::string as_svg(const Plot& plot) {
                        (top + bottom) / 2, escaped(plot.y_label));
 
     // Proportional growth, through the last point of the first series.
-    if (!plot.series.empty() && !plot.series.front().points.empty()) {
+    const bool has_guide = !plot.has_linear_x && !plot.series.front().points.empty();
+    if (has_guide) {
         const auto [x, y] = plot.series.front().points.back();
         const double from = std::max(x_range.low, x * y_range.low / y),
                      to = std::min(x_range.high, x * y_range.high / y);
@@ -136,19 +156,22 @@ std::string as_svg(const Plot& plot) {
         if (series.points.empty()) continue;
         const char* dashed = series.is_reference ? " dashed" : "";
         std::string points;
-        for (const auto& [x, y] : series.points) points += fmt::format("{:.1f},{:.1f} ", place_x(x), place_y(y));
+        for (const auto& [x, y] : series.points)
+            if (is_shown(x, y)) points += fmt::format("{:.1f},{:.1f} ", place_x(x), place_y(y));
         svg += fmt::format("<polyline class=\"line c{}{}\" points=\"{}\"/>\n", series.color, dashed, points);
-        for (const auto& [x, y] : series.points) svg += marker(series, place_x(x), place_y(y));
+        for (const auto& [x, y] : series.points)
+            if (is_shown(x, y)) svg += marker(series, place_x(x), place_y(y));
         svg += fmt::format("<line class=\"line c{0}{1}\" x1=\"{2}\" x2=\"{3}\" y1=\"{4}\" y2=\"{4}\"/>\n", series.color,
-                           dashed, left + 14, left + 50, legend);
-        svg += marker(series, left + 32, legend);
-        svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", left + 60, legend + 4, escaped(series.name));
+                           dashed, legend_left + 14, legend_left + 50, legend);
+        svg += marker(series, legend_left + 32, legend);
+        svg += fmt::format("<text x=\"{}\" y=\"{}\">{}</text>\n", legend_left + 60, legend + 4, escaped(series.name));
         legend += 20;
     }
-    svg += fmt::format(
-        "<line class=\"guide\" stroke-dasharray=\"2 4\" x1=\"{0}\" x2=\"{1}\" y1=\"{2}\" y2=\"{2}\"/>\n"
-        "<text class=\"small\" x=\"{3}\" y=\"{4}\">slope 1: proportional to the number of nodes</text>\n",
-        left + 14, left + 50, legend, left + 60, legend + 4);
+    if (has_guide)
+        svg += fmt::format(
+            "<line class=\"guide\" stroke-dasharray=\"2 4\" x1=\"{0}\" x2=\"{1}\" y1=\"{2}\" y2=\"{2}\"/>\n"
+            "<text class=\"small\" x=\"{3}\" y=\"{4}\">slope 1: proportional to the number of nodes</text>\n",
+            legend_left + 14, legend_left + 50, legend, legend_left + 60, legend + 4);
     return svg + "</svg>\n";
 }
 

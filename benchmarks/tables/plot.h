@@ -13,14 +13,16 @@ struct Series {
     std::vector<std::pair<double, double>> points;
 };
 
-/// A plot with logarithmic axes.
+/// A plot with logarithmic axes, or with a linear x axis from zero on.
 struct Plot {
     std::string name;  ///< of the SVG file, without suffix
     std::string title, x_label, y_label;
     std::vector<Series> series;
+    bool has_linear_x = false;
 };
 
-/// An SVG picture with colours for light and for dark surroundings, and a line of slope 1 through the first series.
+/// An SVG picture with colours for light and for dark surroundings, and a line of slope 1 through the first series if
+/// both axes are logarithmic.
 /// Empty if there are no positive numbers to show.
 std::string as_svg(const Plot& plot);
 

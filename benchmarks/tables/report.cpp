@@ -31,9 +31,16 @@ std::string load_remark(double load) {
 }
 
 void Report::add(const Table& table, const std::vector<Plot>& plots) {
+    std::vector<Picture> pictures;
+    for (const Plot& plot : plots)
+        if (std::string svg = as_svg(plot); !svg.empty()) pictures.push_back({plot.name, plot.title, std::move(svg)});
+    add(table, std::move(pictures));
+}
+
+void Report::add(const Table& table, std::vector<Picture> pictures) {
     fmt::print("{}\n", as_text(table));
     std::fflush(stdout);
-    sections_.emplace_back(table, plots);
+    sections_.emplace_back(table, std::move(pictures));
 }
 
 void Report::finish(const Page& page, const std::filesystem::path& folder) {
@@ -49,14 +56,12 @@ void Report::finish(const Page& page, const std::filesystem::path& folder) {
         write_text_file(folder / name, content);
     };
     text += as_markdown(targets);
-    for (const auto& [table, plots] : sections_) {
+    for (const auto& [table, pictures] : sections_) {
         text += "\n" + as_markdown(table);
         write(table.name + ".csv", as_csv(table));
-        for (const Plot& plot : plots) {
-            const std::string svg = as_svg(plot);
-            if (svg.empty()) continue;
-            write(plot.name + ".svg", svg);
-            text += fmt::format("\n![{}]({}.svg)\n", plot.title, plot.name);
+        for (const Picture& picture : pictures) {
+            write(picture.name + ".svg", picture.svg);
+            text += fmt::format("\n![{}]({}.svg)\n", picture.title, picture.name);
         }
     }
     write(page.name + ".md", text);

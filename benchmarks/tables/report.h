@@ -15,6 +15,13 @@ struct Target {
     bool is_met = false;
 };
 
+/// An SVG picture beside a table.
+struct Picture {
+    std::string name;  ///< of the SVG file, without suffix
+    std::string title;
+    std::string svg;
+};
+
 /// A page of docs/benchmarks.
 struct Page {
     std::string name;          ///< of the Markdown file, without suffix
@@ -33,6 +40,7 @@ class Report {
   public:
     /// Prints the table on standard output and keeps it.
     void add(const Table& table, const std::vector<Plot>& plots = {});
+    void add(const Table& table, std::vector<Picture> pictures);
     void add(const Target& target) { targets_.push_back(target); }
 
     /// Prints the targets. Writes the page, and a CSV file per table and an SVG file per plot beside it; folders are
@@ -40,7 +48,7 @@ class Report {
     void finish(const Page& page, const std::filesystem::path& folder);
 
   private:
-    std::vector<std::pair<Table, std::vector<Plot>>> sections_;
+    std::vector<std::pair<Table, std::vector<Picture>>> sections_;
     std::vector<Target> targets_;
 };
 

@@ -1,11 +1,6 @@
 #include "benchmarks/untangle_tables/cases.h"
 
-#include "core/base/error.h"
-#include "core/deform/deformation.h"
-#include "core/io/deformation_file.h"
-#include "core/io/mesh_io.h"
-#include "core/quality/quality.h"
-#include "core/quality/shape_quality.h"
+#include <vector>
 
 namespace curvewright::benchmarks {
 namespace {
@@ -23,24 +18,6 @@ const std::vector<ThesisCase> all_cases{
 std::span<const ThesisCase> thesis_cases(const Settings& settings) {
     const std::span<const ThesisCase> cases(all_cases);
     return settings.is_quick ? cases.first(2) : cases;
-}
-
-Case load_case(const Settings& settings, const std::string& name) {
-    const std::filesystem::path folder = settings.samples / name;
-    std::filesystem::path file = folder / (name + ".msh");
-    if (!std::filesystem::exists(file)) file += ".gz";
-    const CurvedMesh straight = read_mesh(file).mesh;
-    const Coordinates moved = apply_deformation(straight, read_deformation(folder / "deformation.json"));
-    return {name, straight.with_coordinates(moved), straight.coordinates()};
-}
-
-Judgement judge(const Case& problem, const Coordinates& coordinates) {
-    QualityOptions options;
-    options.orientation_sign = assess_quality(problem.mesh).orientation_sign;
-    const CurvedMesh mesh = problem.mesh.with_coordinates(coordinates);
-    const QualitySummary quality = assess_quality(mesh, options).summary;
-    const ShapeSummary shape = assess_shape(mesh, problem.ideal);
-    return {quality.invalid + quality.undecided, quality.min, quality.mean, shape.min, shape.mean};
 }
 
 }  // namespace curvewright::benchmarks

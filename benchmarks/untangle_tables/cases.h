@@ -3,10 +3,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "benchmarks/cases/untangle_case.h"
 #include "benchmarks/untangle_tables/settings.h"
-#include "core/mesh/curved_mesh.h"
 
 namespace curvewright::benchmarks {
 
@@ -21,22 +20,8 @@ struct ThesisCase {
 };
 std::span<const ThesisCase> thesis_cases(const Settings& settings);
 
-/// A mesh to be untangled.
-struct Case {
-    std::string name;
-    CurvedMesh mesh;
-    Coordinates ideal;  ///< its corners are those of the elements that shapes are measured against
-};
-
-/// A sample with its deformation applied. Throws InvalidInput if it is not there.
-Case load_case(const Settings& settings, const std::string& name);
-
-/// What assess_quality and assess_shape say of a mesh.
-struct Judgement {
-    Index invalid = 0;                         ///< elements that are not certified valid
-    double min = 0.0, mean = 0.0;              ///< scaled Jacobian
-    double shape_min = 0.0, shape_mean = 0.0;  ///< mean ratio against the ideal
-};
-Judgement judge(const Case& problem, const Coordinates& coordinates);
+inline UntangleCase load_case(const Settings& settings, const std::string& name) {
+    return load_untangle_case(settings.samples, name);
+}
 
 }  // namespace curvewright::benchmarks

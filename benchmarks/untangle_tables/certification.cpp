@@ -1,5 +1,5 @@
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 #include "core/quality/jacobian_bounds.h"
 #include "tests/support/mesh_factory.h"
 

@@ -58,7 +58,7 @@ const std::vector<std::string>& GmshPeer::methods() {
     return names;
 }
 
-std::optional<PeerRun> GmshPeer::run(const Case& problem, const std::string& method) const {
+std::optional<PeerRun> GmshPeer::run(const UntangleCase& problem, const std::string& method) const {
     if (!is_available_) return {};
     const ScratchFolder folder;
     write_mesh(folder / "in.msh", problem.mesh);

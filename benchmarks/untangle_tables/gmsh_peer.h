@@ -24,7 +24,7 @@ class GmshPeer {
     /// Settings for the untangling cases: see gmsh_peer.py.
     static const std::vector<std::string>& methods();
     /// None if the peer fails or takes more than the limit.
-    std::optional<PeerRun> run(const Case& problem, const std::string& method) const;
+    std::optional<PeerRun> run(const UntangleCase& problem, const std::string& method) const;
 
   private:
     std::string python_, script_;

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 
 namespace curvewright::benchmarks {
 namespace {
@@ -11,7 +11,7 @@ std::string dash_joined(double min, double mean, Index invalid, double seconds) 
 }
 
 /// Whether a coordinate of a node that belongs to the boundary has changed.
-bool has_moved_boundary(const Case& problem, const Coordinates& coordinates) {
+bool has_moved_boundary(const UntangleCase& problem, const Coordinates& coordinates) {
     const auto& nodes = problem.mesh.topology().boundary_nodes();
     return std::any_of(nodes.begin(), nodes.end(),
                        [&](Index node) { return coordinates.row(node) != problem.mesh.coordinates().row(node); });
@@ -48,7 +48,7 @@ struct Peers {
     }
 };
 
-Peers run_peers(const Case& problem, const GmshPeer& peer) {
+Peers run_peers(const UntangleCase& problem, const GmshPeer& peer) {
     Peers peers;
     for (const std::string& method : GmshPeer::methods()) {
         tell(fmt::format("  Gmsh, {}", method));
@@ -93,7 +93,7 @@ void measure_guaranteed(const Settings& settings, const GmshPeer& peer, Report& 
     Count valid, fixed, least, shape, averages, valid_time, end_time;
     for (const ThesisCase& entry : thesis_cases(settings)) {
         tell("guaranteed: " + entry.name);
-        const Case problem = load_case(settings, entry.name);
+        const UntangleCase problem = load_case(settings, entry.name);
         const Judgement start = judge(problem, problem.mesh.coordinates());
         const auto first = best_of([&] { return timed_guaranteed(problem, false); });
         const auto end = best_of([&] { return timed_guaranteed(problem, true); });

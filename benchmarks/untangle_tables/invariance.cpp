@@ -1,14 +1,14 @@
 #include <array>
 
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 #include "core/quality/quality.h"
 
 namespace curvewright::benchmarks {
 namespace {
 
 /// The same problem in another unit and with another origin.
-Case transformed(const Case& problem, double factor, double shift) {
+UntangleCase transformed(const UntangleCase& problem, double factor, double shift) {
     const auto apply = [&](const Coordinates& x) {
         Coordinates y = x * factor;
         y.leftCols(problem.mesh.topology().dimension()).array() += shift;
@@ -32,10 +32,10 @@ void measure_invariance(const Settings& settings, Report& report) {
     bool is_exact = true, is_valid = true;
     for (const ThesisCase& entry : thesis_cases(settings)) {
         tell("invariance: " + entry.name);
-        const Case problem = load_case(settings, entry.name);
+        const UntangleCase problem = load_case(settings, entry.name);
         const double size =
             (problem.ideal.colwise().maxCoeff() - problem.ideal.colwise().minCoeff()).cwiseAbs().maxCoeff();
-        const auto least = [&](const Case& other) {
+        const auto least = [&](const UntangleCase& other) {
             const Judgement result = judge(other, timed_guaranteed(other, true).result.coordinates);
             is_valid = is_valid && result.invalid == 0;
             return result.min;

@@ -1,7 +1,7 @@
 #include "core/untangle/signed_angles.h"
 
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 
 namespace curvewright::benchmarks {
 namespace {
@@ -12,7 +12,7 @@ struct BestBeta {
 };
 
 /// The beta, the same for all edges, with the fewest invalid elements and then the highest minimum.
-BestBeta best_beta(const Case& problem, DisplacementUnit unit) {
+BestBeta best_beta(const UntangleCase& problem, DisplacementUnit unit) {
     BestBeta best;
     for (double beta : {0.9, 0.7, 0.5, 0.3, 0.1, 0.06, 0.03, 0.01, 0.003, 0.001, 1e-4, 1e-5}) {
         SignedAngleOptions options;
@@ -43,7 +43,7 @@ void measure_signed_angles(const Settings& settings, Report& report) {
     bool is_quick_enough = true;
     for (const ThesisCase& entry : thesis_cases(settings)) {
         tell("signed angles: " + entry.name);
-        const Case problem = load_case(settings, entry.name);
+        const UntangleCase problem = load_case(settings, entry.name);
         const BestBeta literal = best_beta(problem, DisplacementUnit::mesh_unit);
         const BestBeta normalised = best_beta(problem, DisplacementUnit::edge_length);
         const auto automatic = best_of([&] {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 #include "core/io/mesh_io.h"
 #include "core/warp/warp.h"
 
@@ -13,8 +13,8 @@ namespace {
 constexpr double endless = std::numeric_limits<double>::infinity();
 
 /// The bent shell after a warp by affine weights that count all neighbours alike, as the thesis has it.
-Case warped_shell(const Settings& settings) {
-    Case problem = load_case(settings, "shell2");
+UntangleCase warped_shell(const Settings& settings) {
+    UntangleCase problem = load_case(settings, "shell2");
     WarpOptions options;
     options.weighting = Weighting::affine;
     options.distance_power = options.sharing_power = 0.0;
@@ -24,8 +24,8 @@ Case warped_shell(const Settings& settings) {
     return problem;
 }
 
-std::vector<Case> cases(const Settings& settings) {
-    std::vector<Case> cases;
+std::vector<UntangleCase> cases(const Settings& settings) {
+    std::vector<UntangleCase> cases;
     if (!settings.is_quick) {
         cases.push_back(warped_shell(settings));
         cases.push_back(load_case(settings, "screw"));
@@ -95,7 +95,7 @@ void measure_tetrahedra(const Settings& settings, const GmshPeer& peer, Report& 
     int count = 0, explained = 0, slid = 0;
     std::string left;
     Race pinned, sliding, given_up;
-    for (const Case& problem : cases(settings)) {
+    for (const UntangleCase& problem : cases(settings)) {
         tell("tetrahedra: " + problem.name);
         const MeshTopology& topology = problem.mesh.topology();
         const Judgement start = judge(problem, problem.mesh.coordinates());

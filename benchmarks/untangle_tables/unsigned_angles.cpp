@@ -1,7 +1,7 @@
 #include "core/untangle/unsigned_angles.h"
 
+#include "benchmarks/cases/timed.h"
 #include "benchmarks/untangle_tables/measurements.h"
-#include "benchmarks/untangle_tables/timed.h"
 
 namespace curvewright::benchmarks {
 
@@ -18,7 +18,7 @@ void measure_unsigned_angles(const Settings& settings, Report& report) {
     int cases = 0, met = 0, valid = 0, all = 0;
     for (const ThesisCase& entry : thesis_cases(settings)) {
         tell("unsigned angles: " + entry.name);
-        const Case problem = load_case(settings, entry.name);
+        const UntangleCase problem = load_case(settings, entry.name);
         const Judgement start = judge(problem, problem.mesh.coordinates());
         const auto run = [&](const UnsignedAngleOptions& options) {
             return best_of([&] { return timed([&] { return untangle_unsigned_angles(problem.mesh, options); }); });

@@ -2,17 +2,7 @@
 
 #include <sys/resource.h>
 
-#include "core/base/stopwatch.h"
-
 namespace curvewright::benchmarks {
-
-TimedWarp timed_warp(const Case& problem) {
-    const Stopwatch watch;
-    TimedWarp timed;
-    timed.result = warp(problem.mesh, problem.boundary_positions, problem.options);
-    timed.seconds = watch.seconds();
-    return timed;
-}
 
 double peak_memory_mb() {
     rusage usage{};

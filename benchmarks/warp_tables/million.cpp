@@ -23,7 +23,7 @@ struct Measured {
 Measured measure(const Settings& settings, Weighting weighting) {
     set_thread_count(settings.threads);
     const Stopwatch reading;
-    Case problem = family_case(settings, 2, settings.million_level(), 3);
+    WarpCase problem = family_case(settings, 2, settings.million_level(), 3);
     problem.options.weighting = weighting;
     Measured measured;
     measured.read_seconds = reading.seconds();

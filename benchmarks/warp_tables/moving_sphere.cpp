@@ -1,14 +1,14 @@
 #include <limits>
 
+#include "benchmarks/cases/reference.h"
 #include "benchmarks/warp_tables/measure.h"
 #include "benchmarks/warp_tables/measurements.h"
-#include "benchmarks/warp_tables/reference.h"
 #include "core/quality/quality.h"
 
 namespace curvewright::benchmarks {
 
 void measure_moving_sphere(const Settings& settings, Report& report) {
-    Case problem = moving_sphere_case(settings);
+    WarpCase problem = moving_sphere_case(settings);
     Table table{
         "moving_sphere",
         "Moving sphere",

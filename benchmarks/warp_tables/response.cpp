@@ -52,7 +52,7 @@ void measure_responses(const Settings& settings, Report& report) {
             double slowest = 0.0;
             const char* motion = kind == ResponseKind::affine ? "affine" : "translation";
             for (const auto& [dimension, level] : meshes) {
-                Case problem = family_case(settings, dimension, level, 3);
+                WarpCase problem = family_case(settings, dimension, level, 3);
                 tell(fmt::format("response: {}, {}, {}", problem.name, to_string(weighting), motion));
                 problem.options.weighting = weighting;
                 Stopwatch watch;

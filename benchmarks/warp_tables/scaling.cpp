@@ -1,8 +1,8 @@
 #include <map>
 
+#include "benchmarks/cases/reference.h"
 #include "benchmarks/warp_tables/measure.h"
 #include "benchmarks/warp_tables/measurements.h"
-#include "benchmarks/warp_tables/reference.h"
 
 namespace curvewright::benchmarks {
 
@@ -31,7 +31,7 @@ void measure_scaling(const Settings& settings, int dimension, Report& report) {
         Series references{fmt::format("P{}, SparseLU with COLAMD", order), order - 2, true, {}};
         std::map<int, double> per_node;
         for (int level = 0; level <= last; ++level) {
-            const Case problem = family_case(settings, dimension, level, order);
+            const WarpCase problem = family_case(settings, dimension, level, order);
             tell(fmt::format("{}, {} nodes", problem.name, problem.mesh.topology().interior_nodes().size()));
             const TimedWarp timed = best_of([&] { return timed_warp(problem); });
             const WarpReport& r = timed.result.report;

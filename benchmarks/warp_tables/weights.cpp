@@ -2,9 +2,9 @@
 #include <atomic>
 #include <cmath>
 
+#include "benchmarks/cases/reference.h"
 #include "benchmarks/warp_tables/measure.h"
 #include "benchmarks/warp_tables/measurements.h"
-#include "benchmarks/warp_tables/reference.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 
@@ -66,7 +66,7 @@ double largest_difference(const WeightTable& a, const WeightTable& b) {
     return difference;
 }
 
-std::vector<Case> cases(const Settings& settings) {
+std::vector<WarpCase> cases(const Settings& settings) {
     const int level = settings.is_quick ? 2 : 4;
     return {family_case(settings, 2, level, 2), family_case(settings, 2, level, 3), family_case(settings, 3, level, 2),
             family_case(settings, 3, level, 3), moving_sphere_case(settings)};
@@ -95,7 +95,7 @@ void measure_weights(const Settings& settings, Report& report) {
         {}};
     const WarpOptions defaults;
     std::vector<double> dense_ratios, sparse_ratios;
-    for (const Case& problem : cases(settings)) {
+    for (const WarpCase& problem : cases(settings)) {
         const std::vector<Index>& interior = problem.mesh.topology().interior_nodes();
         const NeighbourSets all = find_neighbours(problem.mesh.topology(), interior);
         const NeighbourSets some = find_neighbours(problem.mesh.topology(), sample(interior));

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "benchmarks/cases/untangle_case.h"
 #include "benchmarks/tables/measure.h"
-#include "benchmarks/untangle_tables/cases.h"
 #include "core/base/stopwatch.h"
 #include "core/untangle/guaranteed.h"
 
@@ -24,7 +24,7 @@ auto timed(const Run& run) {
 }
 
 /// The guaranteed method with one default setting. improves = false: stops when every element is certified.
-inline Timed<GuaranteedResult> timed_guaranteed(const Case& problem, bool improves,
+inline Timed<GuaranteedResult> timed_guaranteed(const UntangleCase& problem, bool improves,
                                                 BoundaryMode boundary = BoundaryMode::fixed) {
     GuaranteedOptions options;
     options.improves = improves;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "benchmarks/warp_tables/cases.h"
+#include "benchmarks/cases/warp_case.h"
 
 namespace curvewright::benchmarks {
 
@@ -26,6 +26,10 @@ KktOutcome kkt_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
                        const Eigen::Ref<const Eigen::VectorXd>& influence, KktSolver solver,
                        Eigen::Ref<Eigen::VectorXd> weights);
 
+/// Algorithm 2 of the thesis: weights of least 2-norm by a reduced QR factorisation of A^T (Householder). offsets:
+/// neighbours × dimension, scaled to the size of the patch like above.
+void qr_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights);
+
 struct ReferenceSolve {
     double seconds = 0.0;     ///< factorisation and solution, without the assembly
     double difference = 0.0;  ///< largest distance of a node from where the warp put it, over the size of the mesh
@@ -33,6 +37,6 @@ struct ReferenceSolve {
 
 /// Eigen's SparseLU with COLAMD on the matrix D_I of all interior nodes, nothing condensed: what the thesis does.
 /// The weights are those of the case; result: where the warp put the nodes.
-ReferenceSolve solve_by_sparse_lu(const Case& problem, const Coordinates& result);
+ReferenceSolve solve_by_sparse_lu(const WarpCase& problem, const Coordinates& result);
 
 }  // namespace curvewright::benchmarks

@@ -1,10 +1,12 @@
-#include "benchmarks/warp_tables/cases.h"
+#include "benchmarks/cases/warp_case.h"
 
 #include <cmath>
 
 #include <fmt/format.h>
 
+#include "benchmarks/cases/sample_files.h"
 #include "core/base/error.h"
+#include "core/base/stopwatch.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
 #include "core/io/mesh_io.h"
@@ -25,12 +27,12 @@ Eigen::RowVector3d family_motion(Eigen::RowVector3d x, int dimension) {
 
 }  // namespace
 
-Case family_case(const Settings& settings, int dimension, int level, int order) {
+WarpCase family_case(const std::filesystem::path& families, int dimension, int level, int order) {
     const char* family = dimension == 2 ? "circle" : "sphere";
-    const std::filesystem::path file = settings.families / fmt::format("{}_{}.msh", family, level);
+    const std::filesystem::path file = families / fmt::format("{}_{}.msh", family, level);
     if (!std::filesystem::exists(file))
         throw InvalidInput(fmt::format("{} is missing; make the meshes with sample_meshes/families/generate.sh {}.",
-                                       file.string(), settings.families.string()));
+                                       file.string(), families.string()));
     const CurvedMesh mesh = elevate(read_mesh(file).mesh, order);
     Coordinates target = mesh.coordinates();
     for (const Index node : mesh.topology().boundary_nodes())
@@ -38,21 +40,28 @@ Case family_case(const Settings& settings, int dimension, int level, int order) 
     return {fmt::format("{} {}, P{}", family, level, order), mesh, target, {}};
 }
 
-Case moving_sphere_case(const Settings& settings) {
-    const std::string name = settings.is_quick ? "moving_sphere_small" : "moving_sphere";
-    const CurvedMesh mesh = read_mesh(settings.samples / name / (name + ".msh.gz")).mesh;
-    const Deformation deformation = read_deformation(settings.samples / name / "deformation.json");
+WarpCase sample_warp_case(const std::filesystem::path& samples, const std::string& name) {
+    const CurvedMesh mesh = read_mesh(sample_mesh_file(samples, name)).mesh;
+    const Deformation deformation = read_deformation(samples / name / "deformation.json");
     WarpOptions options;
     options.prescribed_nodes = prescribed_interior_nodes(mesh, deformation);
-    return {name + ", P3", mesh, apply_deformation(mesh, deformation), options};
+    return {fmt::format("{}, P{}", name, mesh.topology().order()), mesh, apply_deformation(mesh, deformation), options};
 }
 
-std::vector<bool> given_nodes(const Case& problem) {
+std::vector<bool> given_nodes(const WarpCase& problem) {
     const MeshTopology& topology = problem.mesh.topology();
     std::vector<bool> is_given(static_cast<std::size_t>(topology.node_count()), false);
     for (const Index node : topology.boundary_nodes()) is_given[static_cast<std::size_t>(node)] = true;
     for (const Index node : problem.options.prescribed_nodes) is_given[static_cast<std::size_t>(node)] = true;
     return is_given;
+}
+
+TimedWarp timed_warp(const WarpCase& problem) {
+    const Stopwatch watch;
+    TimedWarp timed;
+    timed.result = warp(problem.mesh, problem.boundary_positions, problem.options);
+    timed.seconds = watch.seconds();
+    return timed;
 }
 
 }  // namespace curvewright::benchmarks

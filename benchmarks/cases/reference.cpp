@@ -1,9 +1,10 @@
-#include "benchmarks/warp_tables/reference.h"
+#include "benchmarks/cases/reference.h"
 
 #include <cmath>
 #include <vector>
 
 #include <Eigen/LU>
+#include <Eigen/QR>
 #include <Eigen/SparseLU>
 
 #include "core/base/error.h"
@@ -104,7 +105,19 @@ KktOutcome kkt_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets,
     return outcome;
 }
 
-ReferenceSolve solve_by_sparse_lu(const Case& problem, const Coordinates& result) {
+void qr_weights(const Eigen::Ref<const Eigen::MatrixXd>& offsets, Eigen::Ref<Eigen::VectorXd> weights) {
+    const Eigen::Index n = offsets.rows(), m = offsets.cols() + 1;
+    Eigen::MatrixXd transposed(n, m);
+    transposed.leftCols(m - 1) = offsets / offsets.cwiseAbs().maxCoeff();
+    transposed.col(m - 1).setOnes();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(transposed);
+    Eigen::VectorXd t = Eigen::VectorXd::Zero(n);
+    t.head(m) =
+        qr.matrixQR().topRows(m).triangularView<Eigen::Upper>().transpose().solve(Eigen::VectorXd::Unit(m, m - 1));
+    weights = qr.householderQ() * t;
+}
+
+ReferenceSolve solve_by_sparse_lu(const WarpCase& problem, const Coordinates& result) {
     const CurvedMesh& mesh = problem.mesh;
     const int dim = problem.dimension();
     const Numbering numbering = number_nodes(mesh, given_nodes(problem), false);
