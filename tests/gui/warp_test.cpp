@@ -12,6 +12,7 @@
 #include "core/deform/deformation.h"
 #include "core/warp/incremental.h"
 #include "tests/gui/gui_test_support.h"
+#include "ui/main_window/mesh_view.h"
 
 using namespace curvewright;
 using namespace curvewright::testing;
@@ -59,6 +60,30 @@ class WarpTest : public QObject {
     Q_OBJECT
 
   private slots:
+    void a_job_gives_the_focus_back() {
+        WarpUnderTest test("gentle.json");
+        auto* button = test.find<QPushButton>("warp_button");
+        button->setFocus();
+        QTest::keyClick(button, Qt::Key_Space);
+        QVERIFY(!button->isEnabled() && !button->hasFocus());
+        QVERIFY(test.wait_for_job());
+        QVERIFY(button->isEnabled() && button->hasFocus());
+        // Who has gone elsewhere meanwhile stays there.
+        QTest::keyClick(button, Qt::Key_Space);
+        test.window->view().setFocus();
+        QVERIFY(test.wait_for_job());
+        QVERIFY(!button->hasFocus());
+    }
+
+    void elements_that_a_warp_turns_over_are_not_called_numbered_so() {
+        WarpUnderTest test("gentle.json");
+        test.open(test.inputs.path(QStringLiteral("square.msh")), too_far(test));
+        test.window->show_tab(QStringLiteral("warp"));
+        QVERIFY(test.warp_and_wait());
+        QVERIFY(test.document().state().quality->orientation == Orientation::mixed);
+        QVERIFY(!test.find<QWidget>("banner")->isVisible());
+    }
+
     void shows_the_fields_of_the_choices() {
         WarpUnderTest test("gentle.json");
         const auto more = {"neighbours", "poisson_ratio", "stiffening", "solver"};

@@ -56,6 +56,11 @@ const struct {
                      {CommandId::look_bottom, ViewDirection::minus_z},
                      {CommandId::look_isometric, ViewDirection::isometric}};
 
+/// Elements of either orientation in the file are numbered so; later on they are tangled.
+bool is_mixed(const MeshState& state) {
+    return state.quality && state.quality->orientation == Orientation::mixed;
+}
+
 }  // namespace
 
 MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
@@ -252,7 +257,7 @@ void MainWindow::show_state() {
                 tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
                    "numbering, not of tangling."),
                 tr("Flip"));
-        else if (state.quality->orientation == Orientation::mixed)
+        else if (state.quality->orientation == Orientation::mixed && is_mixed(document_.original()))
             banner_->show_warning(tr("Some elements are numbered clockwise and others counter-clockwise; those of the "
                                      "minority count as tangled."),
                                   {});

@@ -52,10 +52,19 @@ void OperationPanel::finish_layout() {
 
 void OperationPanel::refresh() {
     const QString reason = why_not();
-    button_->setEnabled(reason.isEmpty() && !jobs_.runner().is_running());
+    set_usable(*button_, reason.isEmpty() && !jobs_.runner().is_running());
     reason_->setText(reason);
     reason_->setVisible(!reason.isEmpty());
     emit refreshed();
+}
+
+void OperationPanel::set_usable(QPushButton& button, bool is_usable) {
+    if (!is_usable && button.hasFocus()) {
+        had_focus_ = &button;
+        setFocus();
+    }
+    button.setEnabled(is_usable);
+    if (is_usable && had_focus_ == &button && hasFocus()) button.setFocus();
 }
 
 DeformPanel::DeformPanel(MeshJobs& jobs, QWidget* parent)

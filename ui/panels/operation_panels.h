@@ -35,10 +35,15 @@ class OperationPanel : public QWidget {
     /// Adds the button and the line at the end of the panel's layout; follows document and jobs from then on.
     void finish_layout();
     virtual void refresh();
+    /// A button that is disabled hands its focus on to whatever comes next; here the panel keeps it and gives it back.
+    void set_usable(QPushButton& button, bool is_usable);
 
     MeshJobs& jobs_;
     QLabel* reason_ = nullptr;
     QPushButton* button_ = nullptr;
+
+  private:
+    const QPushButton* had_focus_ = nullptr;
 };
 
 /// The loaded deformation and "Apply to boundary".

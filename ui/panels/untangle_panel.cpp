@@ -134,7 +134,7 @@ void UntanglePanel::run() {
 
 void UntanglePanel::refresh() {
     OperationPanel::refresh();
-    recorded_->setEnabled(button_->isEnabled());
+    set_usable(*recorded_, button_->isEnabled());
 }
 
 QString UntanglePanel::why_not() const {
