@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -10,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/quality/jacobian_bounds.h"
+#include "core/quality/quality_sum.h"
 
 namespace curvewright {
 
@@ -50,22 +50,9 @@ void certify(const MeshTopology& topology, const Coordinates& positions, std::si
 }
 
 QualitySummary summarize(const std::vector<ElementQuality>& elements) {
-    QualitySummary summary;
-    if (elements.empty()) return summary;
-    summary.min = std::numeric_limits<double>::infinity();
-    summary.max = -summary.min;
-    double total = 0.0;
-    for (const ElementQuality& quality : elements) {
-        summary.min = std::min(summary.min, quality.scaled_jacobian);
-        summary.max = std::max(summary.max, quality.scaled_jacobian);
-        total += quality.scaled_jacobian;
-        if (quality.validity == Validity::valid) ++summary.valid;
-        if (quality.validity == Validity::invalid) ++summary.invalid;
-        if (quality.validity == Validity::undecided) ++summary.undecided;
-    }
-    // Clamped: rounding must not push the mean past the extremes, nor an infinite sum out of the numbers.
-    summary.mean = std::clamp(total / static_cast<double>(elements.size()), summary.min, summary.max);
-    return summary;
+    QualitySum sum;
+    for (const ElementQuality& quality : elements) sum.add(quality);
+    return sum.result();
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "core/report/group_statistics.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
 #include "core/mesh/node_elements.h"
+#include "core/quality/quality_sum.h"
 
 namespace curvewright {
 namespace {
@@ -30,22 +30,10 @@ void add_owners(const MeshTopology& topology, const NodeElements& node_elements,
 }
 
 QualitySummary summarize(const QualityReport& report, const std::vector<bool>& is_in) {
-    QualitySummary summary;
-    summary.min = std::numeric_limits<double>::infinity();
-    summary.max = -summary.min;
-    double total = 0.0;
-    for (std::size_t i = 0; i < is_in.size(); ++i) {
-        if (!is_in[i]) continue;
-        const ElementQuality& quality = report.elements[i];
-        summary.min = std::min(summary.min, quality.scaled_jacobian);
-        summary.max = std::max(summary.max, quality.scaled_jacobian);
-        total += quality.scaled_jacobian;
-        if (quality.validity == Validity::valid) ++summary.valid;
-        if (quality.validity == Validity::invalid) ++summary.invalid;
-        if (quality.validity == Validity::undecided) ++summary.undecided;
-    }
-    summary.mean = std::clamp(total / summary.elements(), summary.min, summary.max);
-    return summary;
+    QualitySum sum;
+    for (std::size_t i = 0; i < is_in.size(); ++i)
+        if (is_in[i]) sum.add(report.elements[i]);
+    return sum.result();
 }
 
 }  // namespace

@@ -60,44 +60,40 @@ std::vector<ReportParameter> list_of(const UnsignedAngleOptions& options) {
             {"max_iterations", options.max_iterations, "steps of a BFGS minimisation at most"}};
 }
 
+/// What a method is called, for programs and for people, and how it works.
+struct MethodWords {
+    const char *name, *title, *description;
+};
+
+MethodWords words_of(const UntangleOptions& options) {
+    switch (method_of(options)) {
+        case UntangleMethod::guaranteed:
+            return {"guaranteed", "Guaranteed method",
+                    "Minimises a foldover energy over the nodes near tangled elements until the certificate of every "
+                    "element says valid, then raises the least scaled Jacobian. Never returns a worse mesh."};
+        case UntangleMethod::signed_angles:
+            return {"signed-angle", "Signed angles",
+                    "Moves the high-order nodes of every interior edge so that the signed angles at its ends open "
+                    "(Nelder-Mead), then the nodes inside the triangles."};
+        case UntangleMethod::unsigned_angles:
+            return {"unsigned-angle", "Unsigned angles",
+                    "Minimises the sum of the unsigned angles at the ends of every edge of a tangled triangle (BFGS)."};
+    }
+    return {"", "", ""};
+}
+
 }  // namespace
 
 std::string method_name(const UntangleOptions& options) {
-    switch (method_of(options)) {
-        case UntangleMethod::guaranteed:
-            return "guaranteed";
-        case UntangleMethod::signed_angles:
-            return "signed-angle";
-        case UntangleMethod::unsigned_angles:
-            return "unsigned-angle";
-    }
-    return {};
+    return words_of(options).name;
 }
 
 std::string method_title(const UntangleOptions& options) {
-    switch (method_of(options)) {
-        case UntangleMethod::guaranteed:
-            return "Guaranteed method";
-        case UntangleMethod::signed_angles:
-            return "Signed angles";
-        case UntangleMethod::unsigned_angles:
-            return "Unsigned angles";
-    }
-    return {};
+    return words_of(options).title;
 }
 
 std::string method_description(const UntangleOptions& options) {
-    switch (method_of(options)) {
-        case UntangleMethod::guaranteed:
-            return "Minimises a foldover energy over the nodes near tangled elements until the certificate of every "
-                   "element says valid, then raises the least scaled Jacobian. Never returns a worse mesh.";
-        case UntangleMethod::signed_angles:
-            return "Moves the high-order nodes of every interior edge so that the signed angles at its ends open "
-                   "(Nelder-Mead), then the nodes inside the triangles.";
-        case UntangleMethod::unsigned_angles:
-            return "Minimises the sum of the unsigned angles at the ends of every edge of a tangled triangle (BFGS).";
-    }
-    return {};
+    return words_of(options).description;
 }
 
 std::vector<ReportParameter> parameters_of(const UntangleOptions& options) {

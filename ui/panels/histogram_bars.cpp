@@ -1,38 +1,10 @@
 #include "ui/panels/histogram_bars.h"
 
 #include <algorithm>
-#include <limits>
+
+#include "core/quality/quality_sum.h"
 
 namespace curvewright {
-namespace {
-
-/// Sums up what it is given one after another.
-class Figures {
-  public:
-    void add(const ElementQuality& quality) {
-        low_ = std::min(low_, quality.scaled_jacobian);
-        high_ = std::max(high_, quality.scaled_jacobian);
-        total_ += quality.scaled_jacobian;
-        if (quality.validity == Validity::valid) ++summary_.valid;
-        if (quality.validity == Validity::invalid) ++summary_.invalid;
-        if (quality.validity == Validity::undecided) ++summary_.undecided;
-    }
-    QualitySummary result() {
-        const Index count = summary_.elements();
-        if (count == 0) return {};
-        summary_.min = low_;
-        summary_.max = high_;
-        summary_.mean = std::clamp(total_ / static_cast<double>(count), low_, high_);
-        return summary_;
-    }
-
-  private:
-    QualitySummary summary_;
-    double low_ = std::numeric_limits<double>::infinity(), high_ = -low_, total_ = 0.0;
-};
-
-}  // namespace
-
 Index HistogramBars::highest() const {
     Index result = tangled.count();
     for (const Bar& bar : bars) result = std::max(result, bar.count());
@@ -70,16 +42,16 @@ HistogramBars make_bars(std::span<const ElementQuality> elements) {
 }
 
 QualitySummary summary_of(std::span<const ElementQuality> elements, std::span<const Index> some) {
-    Figures figures;
+    QualitySum sum;
     for (const Index element : some)
-        if (const auto i = static_cast<std::size_t>(element); i < elements.size()) figures.add(elements[i]);
-    return figures.result();
+        if (const auto i = static_cast<std::size_t>(element); i < elements.size()) sum.add(elements[i]);
+    return sum.result();
 }
 
 QualitySummary summary_of(std::span<const ElementQuality> elements) {
-    Figures figures;
-    for (const ElementQuality& quality : elements) figures.add(quality);
-    return figures.result();
+    QualitySum sum;
+    for (const ElementQuality& quality : elements) sum.add(quality);
+    return sum.result();
 }
 
 }  // namespace curvewright
