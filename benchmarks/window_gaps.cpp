@@ -59,7 +59,8 @@ class Loop {
     void run_until(const std::function<bool()>& is_done, double seconds_at_most) {
         QElapsedTimer timer;
         timer.start();
-        do QApplication::processEvents(QEventLoop::WaitForMoreEvents, 5);
+        // The beat wakes it. With a time limit processEvents() would not sleep: it would take a processor from the rest.
+        do QApplication::processEvents(QEventLoop::WaitForMoreEvents);
         while (!is_done() && seconds(timer) < seconds_at_most);
     }
     void rest(double time) {

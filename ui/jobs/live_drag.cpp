@@ -108,7 +108,6 @@ LiveDrag::LiveDrag(MeshDocument& document, QObject* parent)
     connect(&document, &MeshDocument::opened, this, [this] {
         if (is_active()) close(false);
         worker_->cancel();
-        if (document_.has_mesh()) prepare();
     });
 }
 

@@ -262,6 +262,7 @@ class MainWindow : public QMainWindow {
     std::optional<MeshFormat> saved_format_;    ///< of the file that Save may overwrite; none = Save asks for a name
     std::optional<MeshFormat> pending_format_;  ///< of the file that is being saved
     QByteArray first_layout_;
+    bool is_drag_unprepared_ = false;  ///< the weights of the open mesh wait until it is seen
     bool is_closing_ = false;
 };
 

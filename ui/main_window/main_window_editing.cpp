@@ -1,4 +1,5 @@
 #include <cmath>
+#include <utility>
 
 #include <QAction>
 #include <QActionGroup>
@@ -91,7 +92,13 @@ void MainWindow::connect_editing() {
         statusBar()->showMessage(tr("The picture is not that of the present state: View > Fit draws it."), 12000);
     });
     connect(view_, &MeshView::frame_begun, &drag_, [this] { drag_.hold_frames(true); });
-    connect(view_, &MeshView::frame_drawn, &drag_, [this] { drag_.hold_frames(false); });
+    connect(view_, &MeshView::frame_drawn, &drag_, [this] {
+        drag_.hold_frames(false);
+        // Not before the mesh is seen: the weights would take the processors from what draws it.
+        if (view_->is_preparing() || !std::exchange(is_drag_unprepared_, false)) return;
+        drag_.prepare();
+    });
+    connect(&document_, &MeshDocument::opened, &drag_, [this] { is_drag_unprepared_ = true; });
     connect(view_, &MeshView::pointer_moved, pointer_tag_, &PointerTag::follow);
     const auto refresh = [this] {
         if (Tool* tool = current_tool()) tool->refresh();
