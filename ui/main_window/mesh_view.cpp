@@ -52,6 +52,8 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
     setMouseTracking(true);
     setFocusPolicy(Qt::StrongFocus);
     setMinimumSize(240, 160);
+    // Opaque whatever VTK leaves in the alpha channel: the window below must not shine through.
+    setTextureFormat(GL_RGB8);
     Parts& parts = *parts_;
 
     // VTK asks for the context through events; unanswered ones make Render() do nothing.

@@ -97,12 +97,6 @@ void MeshView::paintGL() {
         parts.window->BlitDisplayFramebuffer(0, cut.width(), cut.height(), seen.width(), seen.height(), margin.width(),
                                              margin.height(), seen.width(), seen.height(), GL_COLOR_BUFFER_BIT,
                                              GL_NEAREST);
-    // Opaque whatever VTK has left in the alpha channel: the window below must not shine through.
-    parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
-    state->vtkglColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_TRUE);
-    state->vtkglClearColor(0.0f, 0.0f, 0.0f, 1.0f);
-    parts.gl->glClear(GL_COLOR_BUFFER_BIT);
-    state->vtkglColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     state->Pop();
     parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
     if (parts.is_stale) request_frame();
