@@ -15,6 +15,7 @@
 #include <QComboBox>
 #include <QElapsedTimer>
 #include <QFileInfo>
+#include <QMouseEvent>
 #include <QPushButton>
 #include <QSettings>
 #include <QSpinBox>
@@ -128,6 +129,17 @@ class Script {
         measure("element numbers, off", [&] { trigger(CommandId::element_numbers); });
         measure("select all", [&] { trigger(CommandId::select_all); });
         measure("select nothing", [&] { trigger(CommandId::select_none); });
+        work_with_mouse(start);
+        measure("dark", [&] { trigger(CommandId::theme_dark); });
+        measure("light", [&] { trigger(CommandId::theme_light); });
+        measure("window made larger", [&] { window_.resize(window_.size() + QSize(60, 40)); });
+        measure("window made smaller", [&] { window_.resize(window_.size() - QSize(60, 40)); });
+        for (const auto& [name, id] : {std::pair{"page of shortcuts", CommandId::shortcuts},
+                                       {"commands", CommandId::palette},
+                                       {"preferences", CommandId::preferences}}) {
+            measure(name, [&] { trigger(id); });
+            if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+        }
         measure("save", [&] {
             saved_ = folder_.filePath(QStringLiteral("saved.msh"));
             trigger(CommandId::save_as);
@@ -147,6 +159,44 @@ class Script {
     }
 
   private:
+    void work_with_mouse(const MeshState& state) {
+        const MeshView& view = window_.view();
+        const QPointF middle(0.5 * view.width(), 0.5 * view.height());
+        const auto pass = [&](QPointF from, QPointF to, Qt::MouseButtons buttons) {
+            constexpr int moves = 60;
+            for (int i = 0; i <= moves; ++i) {
+                send_mouse(QEvent::MouseMove, from + (to - from) * (double(i) / moves), Qt::NoButton, buttons);
+                loop_.run_until([] { return true; }, 0.0);
+            }
+        };
+        const auto pull = [&](QPointF from, QPointF to) {
+            send_mouse(QEvent::MouseButtonPress, from, Qt::LeftButton, Qt::LeftButton);
+            loop_.run_until([&] { return !window_.drag().is_active() || window_.drag().is_live(); }, 60.0);
+            pass(from, to, Qt::LeftButton);
+            send_mouse(QEvent::MouseButtonRelease, to, Qt::LeftButton, Qt::NoButton);
+            loop_.run_until([&] { return !window_.drag().is_active(); }, 60.0);
+        };
+        trigger(CommandId::tool_select);
+        measure("the pointer passes over it", [&] { pass(0.2 * middle, 1.8 * middle, Qt::NoButton); });
+        measure("a box around half of it", [&] { pull(0.1 * middle, middle * 1.2); });
+        measure("selection grown", [&] { trigger(CommandId::select_grow); });
+        measure("select nothing", [&] { trigger(CommandId::select_none); });
+        trigger(CommandId::tool_drag);
+        const Index held = state.mesh->topology().boundary_nodes().front();
+        const QPointF start = window_.view().to_display(window_.document().state().mesh->coordinates().row(held));
+        measure("a boundary is dragged and let go", [&] { pull(start, start + QPointF(20.0, 10.0)); });
+        measure("undo", [&] { trigger(CommandId::undo); });
+        trigger(CommandId::tool_look);
+        measure("the mesh is turned or moved", [&] { pull(middle, middle + QPointF(150.0, 60.0)); });
+        measure("fit", [&] { trigger(CommandId::fit); });
+        measure("an element is clicked", [&] { pull(0.7 * middle, 0.7 * middle); });
+    }
+
+    void send_mouse(QEvent::Type type, QPointF at, Qt::MouseButton button, Qt::MouseButtons buttons) {
+        QMouseEvent event(type, at, window_.view().mapToGlobal(at), button, buttons, {});
+        QApplication::sendEvent(&window_.view(), &event);
+    }
+
     Dialogs answers() {
         Dialogs dialogs = Dialogs::standard();
         dialogs.save_file = [this](QWidget*, const QString&, const QString&, const QString&, QString&) {

@@ -1,8 +1,10 @@
 /// The boundary in hand: real mouse events in the view, and what becomes of the mesh, the panels and the history.
 
+#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QLabel>
+#include <QMenu>
 #include <QOpenGLWidget>
 #include <QSettings>
 #include <QSignalSpy>
@@ -457,10 +459,20 @@ class DragTest : public QObject {
         auto* groups = test.find<QTreeWidget>("other_boundary_groups");
         QVERIFY(groups->isVisible());
         for (int row = 0; row < groups->topLevelItemCount(); ++row) {
-            const QString name = groups->topLevelItem(row)->text(0);
-            auto* mode = static_cast<QComboBox*>(groups->itemWidget(groups->topLevelItem(row), 1));
-            if (name == QLatin1String("top") || name == QLatin1String("bottom"))
-                mode->setCurrentIndex(mode->findText(QStringLiteral("Slides")));
+            QTreeWidgetItem* item = groups->topLevelItem(row);
+            if (item->text(0) == QLatin1String("top")) choose_in_row(groups, item, QStringLiteral("Slides"));
+            if (item->text(0) == QLatin1String("bottom")) {
+                // Without a mouse.
+                groups->setFocus();
+                groups->setCurrentItem(item);
+                QTest::keyClick(groups, Qt::Key_Space);
+                auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+                QVERIFY(menu);
+                QCOMPARE(menu->activeAction()->text(), QStringLiteral("Stays"));
+                QTest::keyClick(menu, Qt::Key_Down);
+                QTest::keyClick(menu, Qt::Key_Return);
+                QCOMPARE(item->text(1), QStringLiteral("Slides"));
+            }
         }
         const Coordinates opened = test.positions();
         test.take(test.node_at(1.0, 0.5));

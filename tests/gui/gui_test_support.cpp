@@ -2,8 +2,11 @@
 
 #include <fstream>
 
+#include <QApplication>
 #include <QLabel>
+#include <QMenu>
 #include <QPushButton>
+#include <QTreeWidget>
 
 #include "core/io/mesh_io.h"
 #include "core/quality/quality.h"
@@ -81,6 +84,18 @@ bool WindowUnderTest::wait_for_job() {
 void WindowUnderTest::open(const QString& path, const QString& deformation) {
     window->open_file(path, deformation);
     if (!wait_for_job() || !window->document().has_mesh()) qFatal("%s did not open.", qPrintable(path));
+}
+
+void choose_in_row(QTreeWidget* tree, QTreeWidgetItem* item, const QString& text) {
+    tree->scrollToItem(item);
+    const QRect row = tree->visualItemRect(item);
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, {}, QPoint(row.right() - 8, row.center().y()));
+    auto* menu = qobject_cast<QMenu*>(QApplication::activePopupWidget());
+    QVERIFY(menu);
+    for (QAction* action : menu->actions())
+        if (action->text() == text)
+            return QTest::mouseClick(menu, Qt::LeftButton, {}, menu->actionGeometry(action).center());
+    QFAIL("The menu does not offer that.");
 }
 
 }  // namespace curvewright::testing

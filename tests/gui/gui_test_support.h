@@ -8,6 +8,9 @@
 
 #include "ui/main_window/main_window.h"
 
+class QTreeWidget;
+class QTreeWidgetItem;
+
 namespace curvewright::testing {
 
 /// The theme of the test program (one per program).
@@ -60,5 +63,8 @@ struct WindowUnderTest {
     QStringList errors;  ///< messages shown
     std::unique_ptr<MainWindow> window;
 };
+
+/// Clicks on the second column of a row that offers choices and takes one from the menu that opens.
+void choose_in_row(QTreeWidget* tree, QTreeWidgetItem* item, const QString& text);
 
 }  // namespace curvewright::testing

@@ -4,6 +4,10 @@
 
 #include <QFormLayout>
 #include <QHeaderView>
+#include <QKeyEvent>
+#include <QMenu>
+#include <QPainter>
+#include <QStyledItemDelegate>
 #include <QTreeWidget>
 
 #include "ui/panels/form_fields.h"
@@ -11,7 +15,32 @@
 namespace curvewright {
 namespace {
 
-constexpr int group_row_height = 36, mode_width = 110;
+constexpr int group_row_height = 34, mode_width = 110;
+constexpr int mode_role = Qt::UserRole;  ///< a BoundaryMode, of the second column
+
+/// Draws a cell as a box of choices. A box in each of hundreds of rows would be thousands of widgets.
+class ChoiceDelegate : public QStyledItemDelegate {
+  public:
+    /// model: a box that looks as the cells shall.
+    explicit ChoiceDelegate(const QComboBox* model, QObject* parent) : QStyledItemDelegate(parent), model_(model) {}
+
+    void paint(QPainter* painter, const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+        QStyleOptionComboBox box;
+        box.rect = option.rect.adjusted(0, 3, -2, -3);
+        box.palette = option.palette;
+        box.fontMetrics = option.fontMetrics;
+        box.state = option.state & (QStyle::State_Enabled | QStyle::State_Active);
+        // The row that the keys are in.
+        if (option.state & QStyle::State_HasFocus) box.state |= QStyle::State_HasFocus;
+        box.currentText = index.data().toString();
+        QStyle* style = model_->style();
+        style->drawComplexControl(QStyle::CC_ComboBox, &box, painter, model_);
+        style->drawControl(QStyle::CE_ComboBoxLabel, &box, painter, model_);
+    }
+
+  private:
+    const QComboBox* model_;
+};
 
 }  // namespace
 
@@ -32,6 +61,13 @@ BoundaryField::BoundaryField(const QString& name, const Texts& texts, QObject* p
     groups_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
     groups_->header()->setSectionResizeMode(1, QHeaderView::Fixed);
     groups_->header()->resizeSection(1, mode_width);
+    groups_->setItemDelegateForColumn(1, new ChoiceDelegate(choice_, this));
+    groups_->setAllColumnsShowFocus(true);
+    groups_->installEventFilter(this);
+    connect(groups_, &QTreeWidget::itemClicked, this, [this](QTreeWidgetItem* item, int column) {
+        if (column == 1) offer_modes(item);
+    });
+    connect(groups_, &QTreeWidget::itemActivated, this, &BoundaryField::offer_modes);
     connect(choice_, &QComboBox::currentIndexChanged, this, [this] {
         set_visible(is_visible_);
         emit changed();
@@ -64,25 +100,73 @@ void BoundaryField::list_groups(const MeshTopology* topology) {
     is_listed_ = true;
     group_names_ = names;
     groups_->clear();
-    group_modes_.clear();
     for (const QString& group : names) {
         auto* item = new QTreeWidgetItem(groups_, {group});
         item->setToolTip(0, group);
         item->setSizeHint(1, {mode_width, group_row_height});
-        // Where it will be from the start: a move to another parent would have it make its list at once.
-        auto* mode = new QComboBox(groups_->viewport());
-        mode->addItem(tr("Stays"), int(BoundaryMode::fixed));
-        mode->addItem(tr("Slides"), int(BoundaryMode::slide));
-        mode->addItem(tr("Free"), int(BoundaryMode::free));
-        mode->setAccessibleName(tr("Boundary %1").arg(group));
-        groups_->setItemWidget(item, 1, mode);
-        group_modes_.push_back(mode);
-        connect(mode, &QComboBox::currentIndexChanged, this, &BoundaryField::changed);
+        set_mode(item, BoundaryMode::fixed);
     }
     constexpr qsizetype rows_shown = 4;  // more can be scrolled to
     groups_->setFixedHeight(static_cast<int>(std::clamp<qsizetype>(names.size(), 1, rows_shown)) * group_row_height +
                             4);
     emit changed();
+}
+
+void BoundaryField::set_mode(QTreeWidgetItem* item, BoundaryMode mode) {
+    const QString text = mode_text(mode);
+    item->setText(1, text);
+    item->setData(1, mode_role, int(mode));
+    item->setData(1, Qt::AccessibleTextRole, tr("Boundary %1: %2").arg(item->text(0), text));
+}
+
+void BoundaryField::offer_modes(QTreeWidgetItem* item) {
+    auto* menu = new QMenu(groups_);
+    menu->setAttribute(Qt::WA_DeleteOnClose);
+    menu->setObjectName(QStringLiteral("boundary_modes"));
+    for (const auto mode : {BoundaryMode::fixed, BoundaryMode::slide, BoundaryMode::free}) {
+        // The list may be made anew while the menu is open.
+        QAction* action = menu->addAction(mode_text(mode), this, [this, name = item->text(0), mode] {
+            const auto items = groups_->findItems(name, Qt::MatchExactly | Qt::MatchCaseSensitive);
+            if (items.isEmpty() || mode_of(items.front()) == mode) return;
+            set_mode(items.front(), mode);
+            emit changed();
+        });
+        action->setCheckable(true);
+        action->setChecked(mode == mode_of(item));
+        if (action->isChecked()) menu->setActiveAction(action);
+    }
+    const QRect cell = groups_->visualItemRect(item);
+    menu->popup(groups_->viewport()->mapToGlobal(QPoint(cell.right() - mode_width, cell.bottom())));
+}
+
+bool BoundaryField::eventFilter(QObject* watched, QEvent* event) {
+    if (watched == groups_ && event->type() == QEvent::KeyPress && groups_->currentItem()) {
+        const auto* key = static_cast<QKeyEvent*>(event);
+        const bool opens_list =
+            key->modifiers() == Qt::AltModifier && (key->key() == Qt::Key_Down || key->key() == Qt::Key_Up);
+        if (opens_list || (key->modifiers() == Qt::NoModifier &&
+                           (key->key() == Qt::Key_Space || key->key() == Qt::Key_F2 || key->key() == Qt::Key_F4))) {
+            offer_modes(groups_->currentItem());
+            return true;
+        }
+    }
+    return QObject::eventFilter(watched, event);
+}
+
+BoundaryMode BoundaryField::mode_of(const QTreeWidgetItem* item) {
+    return static_cast<BoundaryMode>(item->data(1, mode_role).toInt());
+}
+
+QString BoundaryField::mode_text(BoundaryMode mode) {
+    switch (mode) {
+        case BoundaryMode::fixed:
+            return tr("Stays");
+        case BoundaryMode::slide:
+            return tr("Slides");
+        case BoundaryMode::free:
+            return tr("Free");
+    }
+    return {};
 }
 
 BoundaryRules BoundaryField::rules() const {
@@ -98,7 +182,7 @@ BoundaryRules BoundaryField::rules() const {
             break;
         case Mode::by_group:
             for (qsizetype i = 0; i < group_names_.size(); ++i) {
-                const auto mode = chosen<BoundaryMode>(group_modes_[static_cast<std::size_t>(i)]);
+                const auto mode = mode_of(groups_->topLevelItem(static_cast<int>(i)));
                 if (mode != BoundaryMode::fixed) rules.groups.push_back({group_names_[i].toStdString(), mode});
             }
             break;

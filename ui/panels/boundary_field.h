@@ -1,7 +1,5 @@
 #pragma once
 
-#include <vector>
-
 #include <QObject>
 #include <QStringList>
 
@@ -11,6 +9,7 @@
 class QComboBox;
 class QFormLayout;
 class QTreeWidget;
+class QTreeWidgetItem;
 
 namespace curvewright {
 
@@ -41,12 +40,18 @@ class BoundaryField : public QObject {
   private:
     enum class Mode { fixed, slide, free, by_group };
 
+    bool eventFilter(QObject* watched, QEvent* event) override;
+    void set_mode(QTreeWidgetItem* item, BoundaryMode mode);
+    /// A menu at the item's row.
+    void offer_modes(QTreeWidgetItem* item);
+    static BoundaryMode mode_of(const QTreeWidgetItem* item);
+    static QString mode_text(BoundaryMode mode);
+
     QString name_;
     QFormLayout* form_ = nullptr;
     QComboBox* choice_ = nullptr;
     QTreeWidget* groups_ = nullptr;
     QStringList group_names_;
-    std::vector<QComboBox*> group_modes_;  ///< one per name
     bool is_visible_ = true, is_listed_ = false;
 };
 
