@@ -378,7 +378,33 @@ class LookingTest : public QObject {
             test.click("tool_undo");
             QVERIFY(wait());
             QVERIFY(differing(view.picture(1), usual) <= few);
+            // A solid, whose parts hide each other, with the axes in the corner.
+            test.document().mark_unchanged();
             MeshScene::most_points_of_part = points;
+            test.open(test.inputs.path(QStringLiteral("cube.msh")));
+            QVERIFY(wait());
+            for (const auto change :
+                 {CommandId::shrink, CommandId::clip, CommandId::nodes, CommandId::element_numbers}) {
+                test.window->action(change)->trigger();
+                QVERIFY(wait());
+                const QImage solid = view.grabFramebuffer();
+                MeshScene::most_points_of_part = 1;
+                is_in_parts = false;
+                connect(
+                    &view, &MeshView::frame_begun, &view, [&] { is_in_parts = view.scene().has_more_parts(); },
+                    Qt::SingleShotConnection);
+                view.set_drawing_mode(DrawingMode::behind);  // another frame
+                QVERIFY(wait());
+                QVERIFY(is_in_parts);
+                QCOMPARE(differing(view.grabFramebuffer(), solid), 0);
+                MeshScene::most_points_of_part = points;
+            }
+            test.window->action(CommandId::clip)->trigger();
+            test.window->action(CommandId::shrink)->trigger();
+            test.window->action(CommandId::nodes)->trigger();
+            test.window->action(CommandId::element_numbers)->trigger();
+            test.open(square);
+            QVERIFY(wait());
             // Closed before it was ready.
             test.click("tool_redo");
             test.document().mark_unchanged();

@@ -4,19 +4,16 @@
 
 namespace curvewright {
 
-/// A render window whose frames can be left in the framebuffer that they are rendered to: taking them from there waits
-/// until they are finished.
+/// A render window in a context that Qt uses as well. Its frames can be begun without waiting for the graphics.
 class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
   public:
     static DeferringRenderWindow* New();
-    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow)
+    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow);
 
-        void set_deferring(bool is_deferring) {
-        is_deferring_ = is_deferring;
-    }
-    void Frame() override {
-        if (!is_deferring_) vtkGenericOpenGLRenderWindow::Frame();
-    }
+    /// Draws, whatever state Qt has left the context in. waits: until it can be seen; otherwise Frame() is to follow.
+    /// pre: the context is current.
+    void draw(bool waits);
+    void Frame() override;
 
   private:
     bool is_deferring_ = false;

@@ -5,7 +5,6 @@
 #include <QOpenGLContext>
 #include <QOpenGLVersionFunctionsFactory>
 
-#include <vtkObjectFactory.h>
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 
@@ -14,8 +13,6 @@
 #include "ui/main_window/picture_drawing.h"
 
 namespace curvewright {
-
-vtkStandardNewMacro(DeferringRenderWindow);
 
 void MeshView::initializeGL() {
     Parts& parts = *parts_;
@@ -105,15 +102,7 @@ void MeshView::paintGL() {
 void MeshView::render(bool waits) {
     Parts& parts = *parts_;
     parts.is_stale = false;
-    vtkOpenGLState* state = parts.window->GetState();
-    state->Reset();
-    state->Push();
-    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
-    state->vtkglDepthFunc(GL_LEQUAL);
-    parts.window->set_deferring(!waits);
-    parts.window->Render();
-    parts.window->set_deferring(false);
-    state->Pop();
+    parts.window->draw(waits);
 }
 
 void MeshView::tell_drawn() {

@@ -168,16 +168,7 @@ void TiledPicture::draw_tile() {
 void TiledPicture::draw_part() {
     Parts& parts = *parts_;
     parts.graphics.make_current();
-    DeferringRenderWindow* window = parts.graphics.window();
-    vtkOpenGLState* state = window->GetState();
-    state->Reset();
-    state->Push();
-    // Qt leaves GL_LESS, with which what VTK draws flat and in order (the legend) hides itself.
-    state->vtkglDepthFunc(GL_LEQUAL);
-    window->set_deferring(true);
-    window->Render();
-    window->set_deferring(false);
-    state->Pop();
+    parts.graphics.window()->draw(false);
     QOpenGLExtraFunctions* gl = parts.graphics.context().extraFunctions();
     parts.fence = gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     gl->glFlush();

@@ -170,7 +170,7 @@ void MeshScene::set_first_pixel(int x, int y) {
 }
 
 void MeshScene::begin_parts() {
-    if (is_flat()) parts_->renderer->begin_parts(most_points_of_part);
+    parts_->renderer->begin_parts(most_points_of_part);
 }
 
 void MeshScene::end_parts() {

@@ -41,7 +41,7 @@ class MeshScene {
     /// Draws the part of the picture that begins there: see TileRenderer.
     void set_first_pixel(int x, int y);
 
-    /// The next frame is drawn in parts, one per Render() of the window; that of a solid is not. Whoever changes anything before the last one
+    /// The next frame is drawn in parts, one per Render() of the window. Whoever changes anything before the last one
     /// has to end_parts(), and then the next frame is a whole one.
     void begin_parts();
     static inline long long most_points_of_part = 250'000;  ///< of what is drawn
