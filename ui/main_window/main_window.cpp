@@ -73,6 +73,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
       actions_(theme, this) {
     setObjectName(QStringLiteral("main_window"));
     setWindowIcon(Theme::program_icon());
+    theme.dress(this);
     build_menus();
     build_tool_bar();
     build_center();

@@ -109,7 +109,7 @@ StepPanel::StepPanel(const Theme& theme, QWidget* parent) : QWidget(parent) {
     layout->addWidget(trial_box_);
     layout->addWidget(follows_);
     // A click leaves the keyboard with the track.
-    for (QCheckBox* box : {contours_, follows_}) box->setFocusPolicy(Qt::TabFocus);
+    for (QCheckBox* check : {contours_, follows_}) check->setFocusPolicy(Qt::TabFocus);
     layout->addStretch(1);
 
     connect(plot_, &ConvergencePlot::step_chosen, this, &StepPanel::step_chosen);

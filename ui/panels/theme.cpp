@@ -11,6 +11,7 @@
 #include <QRegularExpression>
 #include <QStyleFactory>
 #include <QSvgRenderer>
+#include <QWidget>
 
 static void load_resources() {
     Q_INIT_RESOURCE(curvewright);
@@ -90,8 +91,15 @@ void Theme::set_choice(Choice choice) {
     for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
         palette.setColor(QPalette::Disabled, role, color(QStringLiteral("text_disabled")));
     application_.setPalette(palette);
-    application_.setStyleSheet(style_sheet());
+    const QString sheet = style_sheet();
+    for (QWidget* window : windows_) window->setStyleSheet(sheet);
     emit changed();
+}
+
+void Theme::dress(QWidget* window) {
+    windows_.push_back(window);
+    connect(window, &QObject::destroyed, this, [this, window] { std::erase(windows_, window); });
+    window->setStyleSheet(style_sheet());
 }
 
 QColor Theme::color(const QString& name) const {
