@@ -359,6 +359,25 @@ class LookingTest : public QObject {
             QVERIFY(wait());
             QVERIFY(edges->isChecked());
             QVERIFY(view.grabFramebuffer() == whole);
+            // The camera may go on meanwhile: the frame is finished as it was begun, and the next one follows.
+            int frames_begun = 0;
+            QImage finished;
+            const auto zooming = connect(&view, &MeshView::frame_begun, &view, [&] {
+                if (++frames_begun == 1) test.window->action(CommandId::zoom_in)->trigger();
+            });
+            const auto keeping = connect(&view, &QOpenGLWidget::frameSwapped, &view, [&] {
+                if (frames_begun == 1 && finished.isNull()) finished = view.grabFramebuffer();
+            });
+            view.set_drawing_mode(DrawingMode::behind);  // another frame
+            QVERIFY(wait());
+            disconnect(zooming);
+            disconnect(keeping);
+            QCOMPARE(frames_begun, 2);
+            QVERIFY(finished == whole);
+            QVERIFY(view.grabFramebuffer() != whole);
+            test.window->action(CommandId::zoom_out)->trigger();
+            QVERIFY(wait());
+            QVERIFY(differing(view.grabFramebuffer(), whole) <= few);
             // Another state while a frame of the one before is under way: that begins again, and in parts, too.
             QVERIFY(test.document().history()->canRedo());
             int frames_in_parts = 0;

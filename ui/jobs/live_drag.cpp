@@ -287,17 +287,17 @@ void LiveDrag::certify_behind(const Coordinates& at) {
             } catch (const Cancelled&) {
                 return;
             }
+            const auto take = [this, generation, report, seconds = watch.seconds()] {
+                if (generation != generation_) return;
+                is_certifying_ = false;
+                certify_seconds_ = seconds;
+                if (finishes_) return keep(report);
+                emit frame(drag_->positions(), report.get());
+                if (is_newer_) certify_behind(drag_->positions());
+            };
+            // Of a large mesh every frame takes long to take over: not two of them at once.
             QMetaObject::invokeMethod(
-                this,
-                [this, generation, report, seconds = watch.seconds()] {
-                    if (generation != generation_) return;
-                    is_certifying_ = false;
-                    certify_seconds_ = seconds;
-                    if (finishes_) return keep(report);
-                    emit frame(drag_->positions(), report.get());
-                    if (is_newer_) certify_behind(drag_->positions());
-                },
-                Qt::QueuedConnection);
+                this, [this, take] { QTimer::singleShot(0, this, take); }, Qt::QueuedConnection);
         });
 }
 

@@ -8,7 +8,7 @@ namespace curvewright {
 class DeferringRenderWindow : public vtkGenericOpenGLRenderWindow {
   public:
     static DeferringRenderWindow* New();
-    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow);
+    vtkTypeMacro(DeferringRenderWindow, vtkGenericOpenGLRenderWindow)
 
     /// Draws, whatever state Qt has left the context in. waits: until it can be seen; otherwise Frame() is to follow.
     /// pre: the context is current.

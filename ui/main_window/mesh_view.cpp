@@ -77,7 +77,7 @@ MeshView::MeshView(QWidget* parent, const QString& object_name)
                 *static_cast<int*>(call_data) = 1;
                 break;
             case vtkCommand::RenderEvent:
-                view->request_frame();
+                view->request_other_view();
                 break;
             case vtkCommand::CreateTimerEvent: {
                 const int id = own.interactor->GetTimerEventId();
@@ -169,14 +169,14 @@ const SceneOptions& MeshView::options() const {
 void MeshView::look(ViewDirection direction) {
     parts_->flight.stop();
     parts_->scene.look(direction);
-    request_frame();
+    request_other_view();
 }
 
 void MeshView::follow_camera(const MeshView& other) {
     parts_->flight.stop();
     parts_->scene.copy_view(other.parts_->scene, true);
     parts_->told_pose = CameraPose::of(parts_->scene.renderer()->GetActiveCamera());
-    request_frame();
+    request_other_view();
 }
 
 bool MeshView::keeps_fitted() const {
@@ -239,7 +239,7 @@ void MeshView::fly(const std::function<void()>& set) {
         const double way = value.toDouble();
         (way < 1.0 ? between(start, end, way) : end).apply(renderer->GetActiveCamera());
         renderer->ResetCameraClippingRange();
-        request_frame();
+        request_other_view();
     });
     connect(&parts.flight, &QVariantAnimation::finished, this, [this] {
         if (parts_->tool) parts_->tool->refresh();
@@ -389,7 +389,7 @@ void MeshView::widen(double factor) {
     pose.scale *= factor;
     for (std::size_t i = 0; i < 3; ++i) pose.position[i] = pose.focus[i] + factor * (pose.position[i] - pose.focus[i]);
     pose.apply(camera);
-    request_frame();
+    request_other_view();
     if (parts_->tool) parts_->tool->refresh();
 }
 

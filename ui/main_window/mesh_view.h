@@ -164,9 +164,10 @@ class MeshView : public QOpenGLWidget, public Canvas {
     void tell_prepared();
     void forget_preparation();
     void release_graphics();
+    /// What is drawn has changed, or only from where, and the tool's marks.
     void request_frame();
+    void request_other_view();
     /// Renders; with waits = false up to where the picture would be waited for.
-    void render(bool waits);
     void schedule_frame_behind();
     void begin_frame_behind();
     void begin_frame();

@@ -77,7 +77,7 @@ void MeshView::show_marks(Marks marks, const std::vector<QPointF>& rubber) {
         marks.lines.push_back(std::move(line));
     }
     parts_->scene.set_marks(marks);
-    request_frame();
+    request_other_view();
 }
 
 }  // namespace curvewright

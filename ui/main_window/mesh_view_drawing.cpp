@@ -70,7 +70,8 @@ void MeshView::paintGL() {
         finish_frame_behind();
     } else if (parts.is_stale && !behind.is_on()) {
         behind.clock.start();
-        render(true);
+        parts.is_stale = false;
+        parts.window->draw(true);
         tell_drawn();
     }
     vtkOpenGLState* state = parts.window->GetState();
@@ -96,13 +97,7 @@ void MeshView::paintGL() {
                                              GL_NEAREST);
     state->Pop();
     parts.gl->glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
-    if (parts.is_stale) request_frame();
-}
-
-void MeshView::render(bool waits) {
-    Parts& parts = *parts_;
-    parts.is_stale = false;
-    parts.window->draw(waits);
+    if (parts.is_stale) request_other_view();
 }
 
 void MeshView::tell_drawn() {
@@ -122,6 +117,11 @@ void MeshView::tell_drawn() {
 }
 
 void MeshView::request_frame() {
+    parts_->behind.is_mixed = true;
+    request_other_view();
+}
+
+void MeshView::request_other_view() {
     parts_->is_stale = true;
     const FrameBehind& behind = parts_->behind;
     if (!behind.is_on() || !isVisible() || !parts_->window->GetReadyForRendering())
@@ -165,7 +165,7 @@ void MeshView::begin_frame_behind() {
 void MeshView::begin_frame() {
     FrameBehind& behind = parts_->behind;
     behind.clock.start();
-    behind.is_outdated = false;
+    behind.is_outdated = behind.is_mixed = parts_->is_stale = false;
     if (is_large() && !behind.is_restless) parts_->scene.begin_parts();
     draw_behind();
     emit frame_begun();
@@ -177,7 +177,7 @@ void MeshView::draw_behind() {
     FrameBehind& behind = parts.behind;
     makeCurrent();
     if (behind.fence) parts.gl->glDeleteSync(behind.fence);
-    render(false);
+    parts.window->draw(false);
     behind.fence = parts.gl->glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
     parts.gl->glFlush();
     doneCurrent();
@@ -209,12 +209,13 @@ void MeshView::poll_frame_behind() {
 void MeshView::continue_frame_behind() {
     Parts& parts = *parts_;
     if (!parts.behind.is_pending || !parts.scene.has_more_parts()) return;
-    if (parts.is_stale) {
+    if (parts.behind.is_mixed) {
         // What has changed meanwhile would be in some of its parts only. Another mesh or other colours do not come as
-        // often as the frames of a motion do.
+        // often as the frames of a drag do.
         parts.scene.end_parts();
         if (parts.behind.is_outdated) return begin_frame();
         parts.behind.is_restless = true;
+        parts.behind.is_mixed = parts.is_stale = false;
     }
     draw_behind();
 }
@@ -230,7 +231,8 @@ void MeshView::finish_frame_behind() {
     behind.fence = nullptr;
     if (parts.scene.has_more_parts()) {
         parts.scene.end_parts();
-        render(true);
+        parts.is_stale = false;
+        parts.window->draw(true);
         return tell_drawn();
     }
     vtkOpenGLState* state = parts.window->GetState();

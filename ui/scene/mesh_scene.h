@@ -41,8 +41,9 @@ class MeshScene {
     /// Draws the part of the picture that begins there: see TileRenderer.
     void set_first_pixel(int x, int y);
 
-    /// The next frame is drawn in parts, one per Render() of the window. Whoever changes anything before the last one
-    /// has to end_parts(), and then the next frame is a whole one.
+    /// The next frame is drawn in parts, one per Render() of the window, all from where the camera was for the first.
+    /// Whoever changes more than the camera and the marks before the last one has to end_parts(), and then the next
+    /// frame is a whole one.
     void begin_parts();
     static inline long long most_points_of_part = 250'000;  ///< of what is drawn
     void end_parts();

@@ -1,8 +1,10 @@
 #include "ui/scene/tile_renderer.h"
 
+#include <utility>
 #include <vector>
 
 #include <vtkActor.h>
+#include <vtkCamera.h>
 #include <vtkDataSet.h>
 #include <vtkMapper.h>
 #include <vtkObjectFactory.h>
@@ -31,6 +33,16 @@ void TileRenderer::end_parts() {
     is_in_parts_ = false;
     first_of_part_ = 0;
     SetErase(1);
+}
+
+void TileRenderer::DeviceRender() {
+    if (!has_more_parts()) {
+        vtkOpenGLRenderer::DeviceRender();
+        return;
+    }
+    vtkCamera* const now = std::exchange(ActiveCamera, first_camera_);
+    vtkOpenGLRenderer::DeviceRender();
+    ActiveCamera = now;
 }
 
 int TileRenderer::UpdateGeometry(vtkFrameBufferObjectBase* buffer) {
@@ -64,10 +76,13 @@ int TileRenderer::UpdateGeometry(vtkFrameBufferObjectBase* buffer) {
     PropArray = all;
     PropArrayCount = count;
     first_of_part_ = next;
-    if (next > 0)
-        SetErase(0);
-    else
+    if (next == 0) {
         end_parts();
+    } else if (GetErase()) {
+        SetErase(0);
+        first_camera_.TakeReference(MakeCamera());
+        first_camera_->DeepCopy(ActiveCamera);
+    }
     return drawn;
 }
 
