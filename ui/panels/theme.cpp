@@ -11,6 +11,7 @@
 #include <QRegularExpression>
 #include <QStyleFactory>
 #include <QSvgRenderer>
+#include <QTimer>
 #include <QWidget>
 
 static void load_resources() {
@@ -92,8 +93,15 @@ void Theme::set_choice(Choice choice) {
         palette.setColor(QPalette::Disabled, role, color(QStringLiteral("text_disabled")));
     application_.setPalette(palette);
     const QString sheet = style_sheet();
-    for (QWidget* window : windows_) window->setStyleSheet(sheet);
+    for (QWidget* window : windows_) {
+        window->setUpdatesEnabled(false);
+        window->setStyleSheet(sheet);
+    }
     emit changed();
+    // The repaint takes as long again: in a turn of its own.
+    QTimer::singleShot(1, this, [this] {
+        for (QWidget* window : windows_) window->setUpdatesEnabled(true);
+    });
 }
 
 void Theme::dress(QWidget* window) {
