@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <QApplication>
 #include <QComboBox>
+#include <QDialog>
 #include <QElapsedTimer>
 #include <QFileInfo>
 #include <QMouseEvent>
@@ -138,7 +139,7 @@ class Script {
                                        {"commands", CommandId::palette},
                                        {"preferences", CommandId::preferences}}) {
             measure(name, [&] { trigger(id); });
-            if (QWidget* dialog = QApplication::activeModalWidget()) dialog->close();
+            for (QDialog* dialog : window_.findChildren<QDialog*>()) dialog->close();
         }
         measure("save", [&] {
             saved_ = folder_.filePath(QStringLiteral("saved.msh"));

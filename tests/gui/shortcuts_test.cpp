@@ -219,6 +219,10 @@ class ShortcutsTest : public QObject {
         shortcuts->set_preset(QStringLiteral("glvis"));
         shortcuts->set_own(CommandId::about, QKeySequence(QStringLiteral("Ctrl+F11")));
         test.window->action(CommandId::shortcuts)->trigger();
+        test.window->action(CommandId::shortcuts)->trigger();
+        int pages = 0;
+        for (const QDialog* dialog : test.window->findChildren<QDialog*>()) pages += dialog->isVisible();
+        QCOMPARE(pages, 1);
         const auto* page = test.find<QDialog>("shortcuts_dialog");
         QStringList texts;
         for (const QLabel* label : page->findChildren<QLabel*>()) texts << label->text();

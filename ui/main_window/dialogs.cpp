@@ -84,8 +84,11 @@ Dialogs Dialogs::standard() {
 }
 
 void show_shortcuts(QWidget* parent, const CommandActions& actions, MouseHabits mouse) {
+    const QString name = QStringLiteral("shortcuts_dialog");
+    // One is enough; the keys may have changed since.
+    delete parent->findChild<QDialog*>(name);
     auto* dialog = new QDialog(parent);
-    dialog->setObjectName(QStringLiteral("shortcuts_dialog"));
+    dialog->setObjectName(name);
     dialog->setWindowTitle(tr("Keyboard and mouse"));
     dialog->setAttribute(Qt::WA_DeleteOnClose);
     auto* page = new QWidget;
