@@ -94,7 +94,9 @@ ShortcutPage::ShortcutPage(Shortcuts& shortcuts, QWidget* parent) : QWidget(pare
     answer->setSpacing(8);
     answer->addWidget(message_, 1);
     answer->addWidget(take_);
-    answer->addStrut(take_->sizeHint().height());
+    QSizePolicy stays = take_->sizePolicy();
+    stays.setRetainSizeWhenHidden(true);  // nothing moves when it comes
+    take_->setSizePolicy(stays);
     auto* column = new QVBoxLayout(this);
     column->setContentsMargins(0, 0, 0, 0);
     column->setSpacing(8);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <QApplication>
 #include <QFormLayout>
 #include <QHeaderView>
 #include <QKeyEvent>
@@ -120,6 +121,8 @@ void BoundaryField::set_mode(QTreeWidgetItem* item, BoundaryMode mode) {
 }
 
 void BoundaryField::offer_modes(QTreeWidgetItem* item) {
+    // On some desktops a click activates, too.
+    if (QApplication::activePopupWidget()) return;
     auto* menu = new QMenu(groups_);
     menu->setAttribute(Qt::WA_DeleteOnClose);
     menu->setObjectName(QStringLiteral("boundary_modes"));

@@ -8,6 +8,7 @@
 #include <QJsonObject>
 #include <QPainter>
 #include <QPalette>
+#include <QProxyStyle>
 #include <QRegularExpression>
 #include <QStyleFactory>
 #include <QSvgRenderer>
@@ -50,12 +51,24 @@ class LineIconEngine : public QIconEngine {
     QByteArray normal_, disabled_;
 };
 
+/// What widgets ask for when they are made, before they belong to a window that has the style sheet.
+class BaseStyle : public QProxyStyle {
+  public:
+    BaseStyle() : QProxyStyle(QStyleFactory::create(QStringLiteral("Fusion"))) {}
+
+    int styleHint(StyleHint hint, const QStyleOption* option, const QWidget* widget,
+                  QStyleHintReturn* data) const override {
+        if (hint == SH_DialogButtonBox_ButtonsHaveIcons) return 0;
+        return QProxyStyle::styleHint(hint, option, widget, data);
+    }
+};
+
 }  // namespace
 
 Theme::Theme(QApplication& application) : application_(application) {
     load_resources();
     is_system_dark_ = application.palette().color(QPalette::Window).lightness() < 128;
-    application.setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+    application.setStyle(new BaseStyle);
     set_choice(Choice::follow_system);
 }
 
