@@ -165,6 +165,9 @@ class DocumentTest : public QObject {
         QCOMPARE(format_number(2.5e-7), QStringLiteral("2.5e−07"));
         QCOMPARE(format_number(0.0), QStringLiteral("0"));
         QCOMPARE(format_number(std::nan("")), QStringLiteral("–"));
+        QCOMPARE(format_component(5.55e-17, 0.046), QStringLiteral("0"));
+        QCOMPARE(format_component(-5.55e-7, 0.046), QStringLiteral("−5.55e−07"));
+        QCOMPARE(format_component(0.0, 0.0), QStringLiteral("0"));
         QCOMPARE(format_count(1234567), QStringLiteral("1,234,567"));
         QCOMPARE(exact_number(0.1).toDouble(), 0.1);
     }

@@ -24,6 +24,11 @@ QString format_number(double value) {
     return value < 0.0 ? QChar(0x2212) + text : text;
 }
 
+QString format_component(double value, double length) {
+    constexpr double rounding = 1e-12;
+    return format_number(std::abs(value) < rounding * length ? 0.0 : value);
+}
+
 QString short_number(double value) {
     return QString::number(value, 'g', 3).replace(QLatin1Char('-'), QChar(0x2212));
 }

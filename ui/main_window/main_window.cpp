@@ -412,8 +412,8 @@ void MainWindow::tell_element(std::optional<Index> element) {
     const Eigen::RowVector3d center = state.mesh->element_center(*element);
     QString text = tr("Element %1, %2, centre (%3, %4, %5)")
                        .arg(topology.element_tag(*element).value)
-                       .arg(type_name(topology.element_type(*element)), format_number(center.x()),
-                            format_number(center.y()), format_number(center.z()));
+                       .arg(type_name(topology.element_type(*element)), format_component(center.x(), center.norm()),
+                            format_component(center.y(), center.norm()), format_component(center.z(), center.norm()));
     if (state.quality) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(*element)];
         const QString validity = quality.validity == Validity::valid     ? tr("proved valid")

@@ -262,9 +262,10 @@ void SelectionPanel::show_element(Index element) {
     add_detail(tr("Element"), QString::number(topology.element_tag(element).value));
     add_detail(tr("Type"), type_name(topology.element_type(element)));
     const auto center = state.mesh->element_center(element);
-    add_detail(
-        tr("Centre"),
-        QStringLiteral("%1, %2, %3").arg(format_number(center[0]), format_number(center[1]), format_number(center[2])));
+    add_detail(tr("Centre"),
+               QStringLiteral("%1, %2, %3")
+                   .arg(format_component(center[0], center.norm()), format_component(center[1], center.norm()),
+                        format_component(center[2], center.norm())));
     if (state.quality) {
         const ElementQuality& quality = state.quality->elements[static_cast<std::size_t>(element)];
         add_detail(tr("Scaled J"), format_number(quality.scaled_jacobian), exact_number(quality.scaled_jacobian));

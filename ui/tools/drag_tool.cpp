@@ -239,8 +239,11 @@ Eigen::Vector3d DragTool::displacement() const {
 
 QString DragTool::hint() const {
     if (is_held_) {
-        QString text = tr("moved (%1, %2").arg(format_number(displacement_[0]), format_number(displacement_[1]));
-        if (!context_.canvas.is_flat()) text += QStringLiteral(", ") + format_number(displacement_[2]);
+        const auto component = [this](Eigen::Index d) {
+            return format_component(displacement_[d], displacement_.norm());
+        };
+        QString text = tr("moved (%1, %2").arg(component(0), component(1));
+        if (!context_.canvas.is_flat()) text += QStringLiteral(", ") + component(2);
         text += tr(") · X Y Z N: along an axis or the normal");
         if (context_.edit.settings().is_soft) text += tr(" · wheel: radius");
         return text + tr(" · Esc: put back");
