@@ -96,8 +96,8 @@ std::vector<vtkActor*> MeshDrawing::actors() const {
     for (const StrokeActor& edges : edges_) actors.push_back(edges.actor());
     for (vtkActor* actor : {boundary_.actor(), section_.actors()[1]}) actors.push_back(actor);
     for (vtkActor* actor : marks_.actors()) actors.push_back(actor);
-    for (vtkActor* actor : {nodes_.others(), nodes_.corners(), highlight_halo_.actor(), highlight_.actor()})
-        actors.push_back(actor);
+    for (vtkActor* actor : nodes_.actors()) actors.push_back(actor);
+    for (vtkActor* actor : {highlight_halo_.actor(), highlight_.actor()}) actors.push_back(actor);
     return actors;
 }
 

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <array>
+#include <vector>
+
 #include "core/tessellate/tessellation.h"
 #include "ui/scene/point_actor.h"
 
@@ -9,8 +12,8 @@ namespace curvewright {
 /// the mesh's boundary in a tone of their own.
 class NodeActors {
   public:
-    vtkActor* corners() const { return sets_[0].actor(); }
-    vtkActor* others() const { return sets_[1].actor(); }
+    /// As they are to be drawn: corners last.
+    std::vector<vtkActor*> actors() const;
     void set_nodes(const CurvedMesh& mesh, const Tessellation& tessellation, const WorldFrame& frame);
     /// boundary, interior: fill of the points; rim: their outline.
     void set_colors(const Color& boundary, const Color& interior, const Color& rim);
@@ -25,8 +28,9 @@ class NodeActors {
   private:
     void color_points();
 
-    PointActor sets_[2];  ///< corners, others
-    std::vector<bool> is_boundary_[2];
+    /// Corners, and the others in three parts, so that none takes long to hand to the graphics.
+    std::array<PointActor, 4> sets_;
+    std::array<std::vector<bool>, 4> is_boundary_;
     Color boundary_{0.0, 0.0, 0.0}, interior_{1.0, 1.0, 1.0};
     bool is_visible_ = false;
 };
