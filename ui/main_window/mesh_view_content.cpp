@@ -213,7 +213,6 @@ void MeshView::show_preparation() {
     }
     // A picture of this mesh takes long: the first one, too.
     parts.behind.is_slow = true;
-    parts.behind.is_outdated = true;
     scale_to_device();
     set_highlighted_elements(parts.highlighted);
     if (parts.tool) parts.tool->refresh();

@@ -165,7 +165,7 @@ void MeshView::begin_frame_behind() {
 void MeshView::begin_frame() {
     FrameBehind& behind = parts_->behind;
     behind.clock.start();
-    behind.is_outdated = behind.is_mixed = parts_->is_stale = false;
+    behind.is_mixed = parts_->is_stale = false;
     if (is_large() && !behind.is_restless) parts_->scene.begin_parts();
     draw_behind();
     emit frame_begun();
@@ -210,12 +210,9 @@ void MeshView::continue_frame_behind() {
     Parts& parts = *parts_;
     if (!parts.behind.is_pending || !parts.scene.has_more_parts()) return;
     if (parts.behind.is_mixed) {
-        // What has changed meanwhile would be in some of its parts only. Another mesh or other colours do not come as
-        // often as the frames of a drag do.
+        // What has changed meanwhile would be in some of its parts only.
         parts.scene.end_parts();
-        if (parts.behind.is_outdated) return begin_frame();
-        parts.behind.is_restless = true;
-        parts.behind.is_mixed = parts.is_stale = false;
+        return begin_frame();
     }
     draw_behind();
 }
