@@ -54,7 +54,7 @@ struct FrameBehind {
     bool is_scheduled = false;  ///< to begin
     bool is_pending = false;    ///< begun, not known to be finished
     bool is_finished = false;   ///< but not shown yet
-    bool is_restless = false;   ///< more frames are about to come: each is drawn as a whole, that is quicker
+    bool is_restless = false;   ///< frames of a drag or of steps come: each is drawn as a whole, that is quicker
     bool is_mixed = false;      ///< what is shown has changed since it was begun: it is begun again
     QSize drawn_size;           ///< of the picture that there is, device pixels; none = there is none
     GLsync fence = nullptr;

@@ -30,8 +30,8 @@ class Theme : public QObject {
     bool is_dark() const { return is_dark_; }
     /// Restyles the windows and the palette of the whole application.
     void set_choice(Choice choice);
-    /// From now on the window and those that belong to it (dialogs, menus, tips) have the style sheet. As a sheet of the
-    /// application Qt would apply it to each widget once per level above it: 155 ms instead of 35.
+    /// From now on the window and those that belong to it (dialogs, menus, tips) have the style sheet. As a sheet of
+    /// the application Qt would apply it to each widget once per level above it: 155 ms instead of 35.
     void dress(QWidget* window);
 
     /// A colour by its name in palette.json. pre: the name exists.
@@ -57,7 +57,7 @@ class Theme : public QObject {
     Choice choice_ = Choice::follow_system;
     QHash<QString, QColor> colors_;
     std::vector<QWidget*> windows_;  ///< that have the style sheet
-    QTemporaryDir icon_files_;  ///< style sheets take images from files only
+    QTemporaryDir icon_files_;       ///< style sheets take images from files only
 };
 
 }  // namespace curvewright
