@@ -23,8 +23,9 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, deformation, trace;  ///< one of the two: what is shown
-    std::filesystem::path output;                    ///< folder for pictures, or an animation's file
+    InputOptions input;
+    std::filesystem::path deformation, trace;  ///< one of the two: what is shown
+    std::filesystem::path output;              ///< folder for pictures, or an animation's file
     int frames = 60;
     int width = 1920, height = 1080;
     bool goes_back = false, shows_legend = true, is_transparent = false;
@@ -47,7 +48,7 @@ std::string parse_size(const std::string& text, Options& options) {
 }
 
 std::filesystem::path file_of(const Options& options, int number) {
-    return options.output / fmt::format("{}-{:04}.png", options.mesh.stem().string(), number);
+    return options.output / fmt::format("{}-{:04}.png", options.input.file.stem().string(), number);
 }
 
 /// Puts a frame into the scene. The view is fitted to the first one and stays where it is.
@@ -104,15 +105,14 @@ std::uintmax_t write_animation(const Options& options, MeshScene& scene, FrameSo
 }
 
 /// The way of a warp. certified with the orientation that the mesh has at its start.
-std::unique_ptr<FrameSource> film_of_warp(const CurvedMesh& mesh, const Options& options, const TaskContext& context,
-                                          Json& timings) {
-    auto deformation = std::make_shared<const Deformation>(read_deformation(options.deformation, context));
+std::unique_ptr<FrameSource> film_of_warp(const CurvedMesh& mesh, const Options& options, Work& work) {
+    auto deformation = std::make_shared<const Deformation>(read_deformation(options.deformation, work.context()));
     std::optional<double> sign;
-    if (is_assessable(mesh)) sign = certify(mesh, context, timings).orientation_sign;
+    if (is_assessable(mesh)) sign = certify(mesh, work).orientation_sign;
     WarpOptions warp_options = options.warp;
     warp_options.prescribed_nodes = prescribed_interior_nodes(mesh, *deformation);
-    const CurvedMesh end =
-        mesh.with_coordinates(warp(mesh, apply_deformation(mesh, *deformation), warp_options, context).coordinates);
+    const CurvedMesh end = mesh.with_coordinates(
+        warp(mesh, apply_deformation(mesh, *deformation), warp_options, work.context()).coordinates);
     return std::make_unique<MotionFrames>(
         end, sign, std::vector<MotionLeg>{{"Warp", mesh.coordinates(), end.coordinates(), deformation, options.warp}},
         options.frames);
@@ -128,12 +128,10 @@ std::unique_ptr<FrameSource> film_of_trace(const CurvedMesh& mesh, const Options
     return std::make_unique<TimelineFrames>(recording, options.level, options.frames, 0, recording->step_count() - 1);
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
+int run(const Options& options, Work& work) {
+    const CurvedMesh mesh = read_input(options.input, work).mesh;
     const std::unique_ptr<FrameSource> film =
-        options.trace.empty() ? film_of_warp(mesh, options, context, timings) : film_of_trace(mesh, options, context);
+        options.trace.empty() ? film_of_warp(mesh, options, work) : film_of_trace(mesh, options, work.context());
     MeshScene scene;
     SceneOptions scene_options;
     scene_options.font = find_text_font();
@@ -145,15 +143,14 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     double least = std::numeric_limits<double>::infinity();
     std::uintmax_t bytes = 0;
     if (is_animation)
-        bytes = write_animation(options, scene, *film, pictures, least, context);
+        bytes = write_animation(options, scene, *film, pictures, least, work.context());
     else
-        write_pictures(options, scene, *film, pictures, least, context);
-    finish_timings(timings, watch);
+        write_pictures(options, scene, *film, pictures, least, work.context());
+    work.end_phase("render");
     const double seconds = pictures / options.frames_per_second;
-    if (invocation.common.json) {
-        Json result = {{"mesh", mesh_json(options.mesh, mesh)},
-                       {"min_on_the_way", least <= 1.0 ? Json(least) : Json()},
-                       {"timings", timings}};
+    if (work.is_json()) {
+        Json result = {{"mesh", mesh_json(options.input.file, mesh)},
+                       {"min_on_the_way", least <= 1.0 ? Json(least) : Json()}};
         if (is_animation)
             result["animation"] = {{"file", options.output.string()},
                                    {"count", pictures},
@@ -169,7 +166,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                                   {"count", pictures},
                                   {"width", options.width},
                                   {"height", options.height}};
-        print_json(result);
+        work.print(result);
     } else if (is_animation) {
         fmt::print("{} pictures of {} x {} pixels, {:.2f} s, {:.0f} kB: {}\n", pictures, options.width, options.height,
                    seconds, std::ceil(static_cast<double>(bytes) / 1000.), options.output.string());
@@ -186,7 +183,7 @@ void add_animate(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "animate",
                                 "Pictures or an animation of a warp on its way, or of the steps of an untangling");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh, "MESH");
+    add_input_option(*command, options->input, "MESH");
     auto* deformation =
         command->add_option("--deformation", options->deformation, "Operations (.json), node table (.csv) or a mesh")
             ->type_name("D");

@@ -2,6 +2,8 @@
 
 #include <map>
 
+#include "app/cli/work.h"
+
 namespace curvewright::cli {
 
 WriteOptions OutputOptions::write_options(const QualityReport* quality, const Coordinates* reference) const {
@@ -36,8 +38,13 @@ void add_output_options(CLI::App& command, OutputOptions& options, bool is_posit
     command.add_flag("--binary", options.binary, "Binary instead of text (vtu, vtk)");
 }
 
-void add_input_option(CLI::App& command, std::filesystem::path& file, const std::string& placeholder) {
-    command.add_option("mesh", file, "Mesh (.msh, .msh.gz, .vtu, .vtk)")->required()->type_name(placeholder);
+void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder) {
+    command.add_option("mesh", input.file, "Mesh (.msh, .msh.gz, .vtu, .vtk)")->required()->type_name(placeholder);
+}
+
+int run_command(const std::function<int(Work&)>& run, const Invocation& invocation, const TaskContext& context) {
+    Work work(invocation, context);
+    return run(work);
 }
 
 void add_deformation_option(CLI::App& command, std::filesystem::path& file) {

@@ -15,7 +15,14 @@
 namespace curvewright::cli {
 
 /// Exit statuses, part of the interface.
-enum ExitStatus { exit_done = 0, exit_bad_input = 1, exit_wrong_usage = 2, exit_not_valid = 3, exit_cancelled = 130 };
+enum ExitStatus {
+    exit_done = 0,
+    exit_bad_input = 1,
+    exit_wrong_usage = 2,
+    exit_not_valid = 3,        ///< done, but elements are invalid or undecided
+    exit_less_than_asked = 4,  ///< done and valid, but less than was asked for explicitly
+    exit_cancelled = 130
+};
 
 /// What every command takes.
 struct CommonOptions {
@@ -28,6 +35,11 @@ struct CommonOptions {
 struct Invocation {
     CommonOptions common;
     std::function<int(const Invocation&, const TaskContext&)> action;
+};
+
+/// Input mesh.
+struct InputOptions {
+    std::filesystem::path file;
 };
 
 /// Output file and its format.
@@ -45,17 +57,21 @@ CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& 
 void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
 
 /// Adds the input mesh, a required positional.
-void add_input_option(CLI::App& command, std::filesystem::path& file, const std::string& placeholder = "IN");
+void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder = "IN");
 /// Adds --deformation, required.
 void add_deformation_option(CLI::App& command, std::filesystem::path& file);
+
+class Work;
+/// run(work) with the work of a command.
+int run_command(const std::function<int(Work&)>& run, const Invocation& invocation, const TaskContext& context);
 
 /// Makes run(options, …) what happens when the command is chosen. options is filled by the command's options.
 template <class Options>
 void set_action(CLI::App& command, Invocation& invocation, std::shared_ptr<Options> options,
-                int (*run)(const Options&, const Invocation&, const TaskContext&)) {
+                int (*run)(const Options&, Work&)) {
     command.callback([&invocation, options, run] {
         invocation.action = [options, run](const Invocation& i, const TaskContext& context) {
-            return run(*options, i, context);
+            return run_command([&](Work& work) { return run(*options, work); }, i, context);
         };
     });
 }

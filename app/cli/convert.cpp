@@ -5,19 +5,17 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh;
+    InputOptions input;
     OutputOptions output;
     bool flip = false;
 };
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+int run(const Options& options, Work& work) {
     check_output(options.output);
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult input = read_input(options.mesh, invocation, context, timings);
+    const ReadResult input = read_input(options.input, work);
     CurvedMesh mesh = input.mesh;
     if (options.flip) mesh = flip_orientation(mesh);
-    write_and_report(options.output, mesh, input.fields, invocation, context, timings, watch);
+    write_and_report(options.output, mesh, input.fields, work);
     return exit_done;
 }
 
@@ -26,7 +24,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_convert(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "convert", "Write the mesh in another format; nothing moves");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh);
+    add_input_option(*command, options->input);
     add_output_options(*command, options->output, true);
     command->add_flag("--flip", options->flip, "Number the elements the other way round (clockwise meshes)");
     set_action(*command, invocation, options, run);

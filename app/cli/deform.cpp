@@ -8,29 +8,25 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, deformation;
+    InputOptions input;
+    std::filesystem::path deformation;
     OutputOptions output;
 };
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+int run(const Options& options, Work& work) {
     check_output(options.output);
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult read = read_input(options.mesh, invocation, context, timings);
+    const ReadResult read = read_input(options.input, work);
     const CurvedMesh& input = read.mesh;
-    const Deformation deformation = read_deformation(options.deformation, context);
-    const Stopwatch deforming;
+    const Deformation deformation = read_deformation(options.deformation, work.context());
     const CurvedMesh mesh = input.with_coordinates(apply_deformation(input, deformation));
-    timings["deform"] = deforming.seconds();
+    work.end_phase("deform");
     long moved = 0;
     for (Index node = 0; node < mesh.topology().node_count(); ++node)
         if (mesh.coordinates().row(node) != input.coordinates().row(node)) ++moved;
-    const auto quality = certify_for(options.output, mesh, context, timings);
-    write_output(options.output, mesh, read.fields, quality ? &*quality : nullptr, &input.coordinates(), invocation,
-                 timings);
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"mesh", mesh_json(options.output.file, mesh)}, {"moved_nodes", moved}, {"timings", timings}});
+    const auto quality = certify_for(options.output, mesh, work);
+    write_output(options.output, mesh, read.fields, quality ? &*quality : nullptr, &input.coordinates(), work);
+    if (work.is_json())
+        work.print({{"mesh", mesh_json(options.output.file, mesh)}, {"moved_nodes", moved}});
     else
         fmt::print("{}: {} nodes moved\n", options.output.file.string(), moved);
     return exit_done;
@@ -41,7 +37,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_deform(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "deform", "Move the boundary nodes only; the interior stays");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh);
+    add_input_option(*command, options->input);
     add_deformation_option(*command, options->deformation);
     add_output_options(*command, options->output);
     set_action(*command, invocation, options, run);

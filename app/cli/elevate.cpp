@@ -9,19 +9,16 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh;
+    InputOptions input;
     int order = 0;
     OutputOptions output;
 };
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+int run(const Options& options, Work& work) {
     check_output(options.output);
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult input = read_input(options.mesh, invocation, context, timings);
-    const Stopwatch elevating;
-    const CurvedMesh mesh = elevate(input.mesh, options.order, context);
-    timings["elevate"] = elevating.seconds();
+    const ReadResult input = read_input(options.input, work);
+    const CurvedMesh mesh = elevate(input.mesh, options.order, work.context());
+    work.end_phase("elevate");
     // The elements are the same, the nodes are others.
     std::vector<FieldArray> fields;
     std::string left_out;
@@ -30,9 +27,8 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
             fields.push_back(field);
         else
             left_out += (left_out.empty() ? "" : ", ") + field.name;
-    if (!left_out.empty() && !invocation.common.quiet)
-        fmt::print(stderr, "Left out, because the nodes are others: {}.\n", left_out);
-    write_and_report(options.output, mesh, fields, invocation, context, timings, watch);
+    if (!left_out.empty()) work.note(fmt::format("Left out, because the nodes are others: {}.", left_out));
+    write_and_report(options.output, mesh, fields, work);
     return exit_done;
 }
 
@@ -41,7 +37,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_elevate(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "elevate", "Straight-sided mesh of another order on the same corners");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh);
+    add_input_option(*command, options->input);
     command->add_option("--order", options->order, "Order of the result, 1 to 10")->required()->type_name("P");
     add_output_options(*command, options->output);
     set_action(*command, invocation, options, run);

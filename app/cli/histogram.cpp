@@ -16,16 +16,15 @@ struct Options {
     std::vector<std::string> titles;
 };
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object(), states = Json::array();
+int run(const Options& options, Work& work) {
+    Json states = Json::array();
     if (options.output.extension() != ".svg")
         throw InvalidInput(options.output.string(), 0, "histograms are written as .svg.");
     std::vector<HistogramPanel> panels;
     for (std::size_t i = 0; i < options.meshes.size(); ++i) {
         const std::filesystem::path& file = options.meshes[i];
-        const CurvedMesh mesh = read_input(file, invocation, context, timings).mesh;
-        const QualityReport report = certify(mesh, context, timings);
+        const CurvedMesh mesh = read_input({file}, work).mesh;
+        const QualityReport report = certify(mesh, work);
         const HistogramPanel& panel =
             panels.emplace_back(HistogramPanel{options.titles.empty() ? file.filename().string() : options.titles[i],
                                                report.summary, make_report_histogram(report)});
@@ -37,9 +36,9 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                             {"undecided", panel.histogram.undecided}}}});
     }
     write_text_file(options.output, histograms_document(panels, report_colors()));
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"picture", {{"file", options.output.string()}}}, {"states", states}, {"timings", timings}});
+    work.end_phase("write");
+    if (work.is_json())
+        work.print({{"picture", {{"file", options.output.string()}}}, {"states", states}});
     else
         fmt::print("{}\n", options.output.string());
     return exit_done;

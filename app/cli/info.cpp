@@ -22,15 +22,13 @@ long cells_of_group(const MeshTopology& topology, const PhysicalGroup& group) {
     return count;
 }
 
-int run(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult input = read_input(file, invocation, context, timings);
+int run(const InputOptions& options, Work& work) {
+    const std::filesystem::path& file = options.file;
+    const ReadResult input = read_input(options, work);
     const CurvedMesh& mesh = input.mesh;
     const MeshTopology& topology = mesh.topology();
     const auto box = bounding_box(mesh);
     const std::string orientation = is_assessable(mesh) ? to_string(find_orientation(mesh)) : "not defined";
-    finish_timings(timings, watch);
 
     Json types = Json::object(), groups = Json::array();
     for (const ElementBlock& block : topology.blocks()) {
@@ -54,18 +52,18 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
                           {"components", field.components},
                           {"range", range ? Json{range->first, range->second} : Json()}});
     }
-    if (invocation.common.json) {
-        const Json json = {{"mesh", mesh_json(file, mesh)},
-                           {"format", to_string(input.format)},
-                           {"cells", types},
-                           {"groups", groups},
-                           {"arrays", arrays},
-                           {"entities", topology.entities().size()},
-                           {"orientation", orientation},
-                           {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
-                           {"notes", input.notes},
-                           {"timings", timings}};
-        print_json(json);
+    if (work.is_json()) {
+        const Json json = {
+            {"mesh", mesh_json(file, mesh)},
+            {"format", to_string(input.format)},
+            {"cells", types},
+            {"groups", groups},
+            {"arrays", arrays},
+            {"entities", topology.entities().size()},
+            {"orientation", orientation},
+            {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
+        };
+        work.print(json);
         return exit_done;
     }
     fmt::print("{} ({})\n", file.string(), to_string(input.format));
@@ -93,9 +91,9 @@ int run(const std::filesystem::path& file, const Invocation& invocation, const T
 
 void add_info(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "info", "Type, order, counts, groups, orientation, bounding box");
-    auto file = std::make_shared<std::filesystem::path>();
-    add_input_option(*command, *file, "MESH");
-    set_action(*command, invocation, file, run);
+    auto input = std::make_shared<InputOptions>();
+    add_input_option(*command, *input, "MESH");
+    set_action(*command, invocation, input, run);
 }
 
 }  // namespace curvewright::cli

@@ -39,7 +39,8 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer(
         "Exit status: 0 done; 1 bad input or a file that cannot be used; 2 wrong usage; 3 done, but elements are "
-        "invalid or undecided, or the motion of a warp stopped early.");
+        "invalid or undecided, or the motion of a warp stopped early; 4 done and valid, but less than was asked for "
+        "explicitly.");
     Invocation invocation;
     add_info(app, invocation);
     add_quality(app, invocation);

@@ -9,10 +9,6 @@
 
 namespace curvewright::cli {
 
-void print_json(const Json& json) {
-    fmt::print("{}\n", json.dump(2, ' ', false, Json::error_handler_t::replace));
-}
-
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh) {
     const MeshTopology& topology = mesh.topology();
     return {{"file", file.string()},          {"dimension", topology.dimension()},
@@ -55,29 +51,23 @@ std::string summary_line(const QualitySummary& summary) {
         summary.min, summary.mean, summary.max, summary.valid, summary.invalid, summary.undecided);
 }
 
-ReadResult read_input(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context,
-                      Json& timings) {
-    const Stopwatch watch;
-    ReadResult result = read_mesh(file, context);
-    timings["read"] = timings.value("read", 0.0) + watch.seconds();
-    if (!invocation.common.quiet)
-        for (const std::string& note : result.notes) fmt::print(stderr, "{}: {}\n", file.string(), note);
+ReadResult read_input(const InputOptions& input, Work& work) {
+    ReadResult result = read_mesh(input.file, work.context());
+    work.notes(input.file.string(), result.notes);
+    work.end_phase("read");
     return result;
 }
 
-QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
-                      const QualityOptions& options) {
-    const Stopwatch watch;
-    QualityReport report = assess_quality(mesh, options, context);
-    timings["certify"] = timings.value("certify", 0.0) + watch.seconds();
+QualityReport certify(const CurvedMesh& mesh, Work& work, const QualityOptions& options) {
+    QualityReport report = assess_quality(mesh, options, work.context());
+    work.end_phase("certify");
     return report;
 }
 
-QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, const TaskContext& context,
-                             Json& timings) {
+QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, Work& work) {
     QualityOptions options;
     options.orientation_sign = original.orientation_sign;
-    return certify(mesh, context, timings, options);
+    return certify(mesh, work, options);
 }
 
 bool is_assessable(const CurvedMesh& mesh) {
@@ -89,19 +79,18 @@ bool is_assessable(const CurvedMesh& mesh) {
     }
 }
 
-Assessment assess(const CurvedMesh& mesh, const TaskContext& context, Json& timings, const QualityOptions& options) {
+Assessment assess(const CurvedMesh& mesh, Work& work, const QualityOptions& options) {
     try {
-        return {certify(mesh, context, timings, options), {}};
+        return {certify(mesh, work, options), {}};
     } catch (const Unsupported& problem) {
         return {std::nullopt, problem.what()};
     }
 }
 
-Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, const TaskContext& context,
-                         Json& timings) {
+Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, Work& work) {
     QualityOptions options;
     if (original.report) options.orientation_sign = original.report->orientation_sign;
-    return assess(mesh, context, timings, options);
+    return assess(mesh, work, options);
 }
 
 void add_assessment(Json& json, const Assessment& assessment) {
@@ -109,12 +98,11 @@ void add_assessment(Json& json, const Assessment& assessment) {
     if (!assessment.report) json["quality_note"] = assessment.note;
 }
 
-std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
-                                         const TaskContext& context, Json& timings) {
+std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh, Work& work) {
     const auto format = output.format ? output.format : format_of_suffix(output.file);
     const bool has_place = format == MeshFormat::vtu || format == MeshFormat::vtk;
     if (!has_place || !is_assessable(mesh)) return std::nullopt;
-    return certify(mesh, context, timings);
+    return certify(mesh, work);
 }
 
 void check_output(const OutputOptions& output) {
@@ -130,42 +118,32 @@ void check_output(const OutputOptions& output) {
 }
 
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                  const QualityReport* quality, const Coordinates* reference, const Invocation& invocation,
-                  Json& timings) {
-    const Stopwatch watch;
+                  const QualityReport* quality, const Coordinates* reference, Work& work) {
     WriteOptions options = output.write_options(quality, reference);
     options.fields = &fields;
-    const std::vector<std::string> notes = write_mesh(output.file, mesh, options);
-    timings["write"] = watch.seconds();
-    if (!invocation.common.quiet)
-        for (const std::string& note : notes) fmt::print(stderr, "{}: {}\n", output.file.string(), note);
+    work.notes(output.file.string(), write_mesh(output.file, mesh, options));
+    work.end_phase("write");
 }
 
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                      const Invocation& invocation, const TaskContext& context, Json& timings, const Stopwatch& watch) {
-    const auto quality = certify_for(output, mesh, context, timings);
-    write_output(output, mesh, fields, quality ? &*quality : nullptr, nullptr, invocation, timings);
-    finish_timings(timings, watch);
-    if (invocation.common.json)
-        print_json({{"mesh", mesh_json(output.file, mesh)}, {"timings", timings}});
+                      Work& work) {
+    const auto quality = certify_for(output, mesh, work);
+    write_output(output, mesh, fields, quality ? &*quality : nullptr, nullptr, work);
+    if (work.is_json())
+        work.print({{"mesh", mesh_json(output.file, mesh)}});
     else
         fmt::print("{}: {}\n", output.file.string(), mesh_line(mesh));
 }
 
-void finish_timings(Json& timings, const Stopwatch& watch) {
-    timings["total"] = watch.seconds();
-}
-
-void warn_about_orientation(const QualityReport& report, const Invocation& invocation) {
-    if (invocation.common.quiet) return;
+void note_orientation(const QualityReport& report, Work& work) {
     if (report.orientation == Orientation::negative)
-        fmt::print(stderr,
-                   "All elements are numbered clockwise (negative orientation). They are judged the other way "
-                   "round; 'convert --flip' renumbers them.\n");
+        work.note(
+            "All elements are numbered clockwise (negative orientation). They are judged the other way round; "
+            "'convert --flip' renumbers them.");
     if (report.orientation == Orientation::mixed)
-        fmt::print(stderr,
-                   "Some elements are numbered the other way round than the others: their straight-sided "
-                   "versions have negative volume.\n");
+        work.note(
+            "Some elements are numbered the other way round than the others: their straight-sided versions have "
+            "negative volume.");
 }
 
 int validity_status(const QualitySummary& summary) {

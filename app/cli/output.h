@@ -4,19 +4,11 @@
 #include <optional>
 #include <string>
 
-#include <nlohmann/json.hpp>
-
-#include "app/cli/command.h"
-#include "core/base/stopwatch.h"
+#include "app/cli/work.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/quality/quality.h"
 
 namespace curvewright::cli {
-
-using Json = nlohmann::ordered_json;
-
-/// Prints one JSON object on standard output. Bytes that are no UTF-8 (in file or group names) become U+FFFD.
-void print_json(const Json& json);
 
 /// "mesh": file, dimension, order, elements, nodes, interior_nodes.
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh);
@@ -30,15 +22,12 @@ std::string mesh_line(const CurvedMesh& mesh);
 /// "min −0.222, mean 0.634, max 1.000; 28 valid, 2 invalid, 0 undecided" in ASCII.
 std::string summary_line(const QualitySummary& summary);
 
-/// Reads a mesh, prints the reader's notes on standard error unless --quiet, and stores the time as "read".
-ReadResult read_input(const std::filesystem::path& file, const Invocation& invocation, const TaskContext& context,
-                      Json& timings);
-/// assess_quality, timed as "certify" (added to what is there).
-QualityReport certify(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
-                      const QualityOptions& options = {});
+/// Reads a mesh and notes what its reader has to say. Timed as "read".
+ReadResult read_input(const InputOptions& input, Work& work);
+/// assess_quality, timed as "certify".
+QualityReport certify(const CurvedMesh& mesh, Work& work, const QualityOptions& options = {});
 /// certify of what became of `original`: judged with its orientation.
-QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, const TaskContext& context,
-                             Json& timings);
+QualityReport certify_result(const CurvedMesh& mesh, const QualityReport& original, Work& work);
 /// Whether the quality of the mesh can be assessed at all.
 bool is_assessable(const CurvedMesh& mesh);
 
@@ -48,32 +37,27 @@ struct Assessment {
     std::string note;  ///< one sentence; empty if there is a report
 };
 /// certify for any mesh.
-Assessment assess(const CurvedMesh& mesh, const TaskContext& context, Json& timings,
-                  const QualityOptions& options = {});
+Assessment assess(const CurvedMesh& mesh, Work& work, const QualityOptions& options = {});
 /// assess of what became of `original`: judged with its orientation.
-Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, const TaskContext& context, Json& timings);
+Assessment assess_result(const CurvedMesh& mesh, const Assessment& original, Work& work);
 /// Adds "scaled_jacobian"; where there is no report that is null, and "quality_note" says why.
 void add_assessment(Json& json, const Assessment& assessment);
 
 /// The quality that belongs in the output: none for MSH, which has no place for it, and for meshes that are not
 /// assessable.
-std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh,
-                                         const TaskContext& context, Json& timings);
+std::optional<QualityReport> certify_for(const OutputOptions& output, const CurvedMesh& mesh, Work& work);
 /// Throws InvalidInput if the output cannot be: unknown suffix, no such folder, a folder in the file's place. To be
 /// called before the work.
 void check_output(const OutputOptions& output);
-/// Writes the mesh with the arrays of its nodes and elements, timed as "write". quality may be null. Says on standard
-/// error, unless --quiet, what the format could not hold.
+/// Writes the mesh with the arrays of its nodes and elements, timed as "write". quality may be null. Notes what the
+/// format could not hold.
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                  const QualityReport* quality, const Coordinates* reference, const Invocation& invocation,
-                  Json& timings);
+                  const QualityReport* quality, const Coordinates* reference, Work& work);
 /// What commands do whose result is a mesh and nothing else: certify where it belongs in the file, write, say so.
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                      const Invocation& invocation, const TaskContext& context, Json& timings, const Stopwatch& watch);
-/// Adds "total" to the timings.
-void finish_timings(Json& timings, const Stopwatch& watch);
-/// Sentence on standard error when the mesh is numbered clockwise or mixed; none otherwise or with --quiet.
-void warn_about_orientation(const QualityReport& report, const Invocation& invocation);
+                      Work& work);
+/// Notes that the mesh is numbered clockwise or mixed, if it is.
+void note_orientation(const QualityReport& report, Work& work);
 /// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.
 int validity_status(const QualitySummary& summary);
 

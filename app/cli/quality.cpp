@@ -8,7 +8,8 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, csv;
+    InputOptions input;
+    std::filesystem::path csv;
     QualityOptions quality;
 };
 
@@ -22,27 +23,22 @@ std::string to_csv(const CurvedMesh& mesh, const QualityReport& report) {
     return text;
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const CurvedMesh mesh = read_input(options.mesh, invocation, context, timings).mesh;
-    const QualityReport report = certify(mesh, context, timings, options.quality);
-    warn_about_orientation(report, invocation);
+int run(const Options& options, Work& work) {
+    const CurvedMesh mesh = read_input(options.input, work).mesh;
+    const QualityReport report = certify(mesh, work, options.quality);
+    note_orientation(report, work);
     if (!options.csv.empty()) {
-        const Stopwatch write;
         write_text_file(options.csv, to_csv(mesh, report));
-        timings["write"] = write.seconds();
+        work.end_phase("write");
     }
-    finish_timings(timings, watch);
-    if (invocation.common.json) {
-        const Json json = {{"mesh", mesh_json(options.mesh, mesh)},
+    if (work.is_json()) {
+        const Json json = {{"mesh", mesh_json(options.input.file, mesh)},
                            {"orientation", to_string(report.orientation)},
                            {"scaled_jacobian", summary_json(report.summary)},
-                           {"worst", worst_json(mesh, report)},
-                           {"timings", timings}};
-        print_json(json);
+                           {"worst", worst_json(mesh, report)}};
+        work.print(json);
     } else {
-        fmt::print("{}: {}\n{}\n", options.mesh.string(), mesh_line(mesh), summary_line(report.summary));
+        fmt::print("{}: {}\n{}\n", options.input.file.string(), mesh_line(mesh), summary_line(report.summary));
         for (Index element : report.worst(10)) {
             const ElementQuality& q = report.elements[element];
             const auto center = mesh.element_center(element);
@@ -59,7 +55,7 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
 void add_quality(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "quality", "Certified scaled Jacobian (min J / max J) per element");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh, "MESH");
+    add_input_option(*command, options->input, "MESH");
     command->add_option("--csv", options->csv, "Write one line per element to this file")->type_name("FILE");
     command->add_option("--tolerance", options->quality.tolerance, "Width of the bounds of J, relative to max |J|")
         ->capture_default_str()

@@ -18,7 +18,8 @@ namespace curvewright::cli {
 namespace {
 
 struct Options {
-    std::filesystem::path mesh, output;
+    InputOptions input;
+    std::filesystem::path output;
     int width = 1200, height = 900;
     PictureGround ground = PictureGround::background;
     SceneOptions scene;
@@ -57,17 +58,14 @@ void place_clip(ClipPlane& clip, const Options& options, const CurvedMesh& mesh,
     if (position) clip.position = clip.normal[static_cast<std::size_t>(axis)] < 0.0 ? 1.0 - *position : *position;
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult input = read_input(options.mesh, invocation, context, timings);
+int run(const Options& options, Work& work) {
+    const ReadResult input = read_input(options.input, work);
     const CurvedMesh& mesh = input.mesh;
-    const Coloring coloring = find_coloring(options.colors, input, context);
+    const Coloring coloring = find_coloring(options.colors, input, work.context());
     if (options.output.extension() != ".png")
         throw InvalidInput(options.output.string(), 0, "pictures are written as .png.");
     std::optional<QualityReport> quality;
-    if (is_assessable(mesh)) quality = certify(mesh, context, timings);
-    const Stopwatch rendering;
+    if (is_assessable(mesh)) quality = certify(mesh, work);
     MeshScene scene;
     SceneOptions scene_options = options.scene;
     scene_options.font = find_text_font();
@@ -87,16 +85,14 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
                         to_png(reduce_colors(render_pixels(scene, options.width, options.height), *options.palette)));
     else
         render_png(scene, options.width, options.height, options.output, options.ground);
-    timings["render"] = rendering.seconds();
-    finish_timings(timings, watch);
-    if (invocation.common.json) {
+    work.end_phase("render");
+    if (work.is_json()) {
         Json json = {
-            {"mesh", mesh_json(options.mesh, mesh)},
+            {"mesh", mesh_json(options.input.file, mesh)},
             {"picture", {{"file", options.output.string()}, {"width", options.width}, {"height", options.height}}},
             {"colors", colors_json(options.colors, scene.shown_scale())}};
         if (ball) json["view"] = ball_json(*ball, mesh);
-        json["timings"] = timings;
-        print_json(json);
+        work.print(json);
     } else
         fmt::print("{}: {} x {} pixels\n", options.output.string(), options.width, options.height);
     return exit_done;
@@ -108,7 +104,7 @@ void add_render(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "render",
                                 "Picture of the mesh, coloured by scaled Jacobian or an array of the file");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh, "MESH");
+    add_input_option(*command, options->input, "MESH");
     command->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("PNG");
     command->add_option("--size", "Size in pixels (default 1200x900)")
         ->type_name("WxH")

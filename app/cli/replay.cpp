@@ -23,34 +23,29 @@ std::vector<Action> read_actions(const std::filesystem::path& session) {
     return parse_session(text, "standard input");
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+int run(const Options& options, Work& work) {
     const bool writes = !options.output.file.empty();
     if (writes) check_output(options.output);
-    const Stopwatch watch;
-    Json timings = Json::object();
     const std::vector<Action> actions = read_actions(options.session);
     Replay replay(options.session == "-" ? std::filesystem::path() : options.session.parent_path());
-    const Stopwatch replaying;
     for (std::size_t i = 0; i < actions.size(); ++i) {
-        context.report(fmt::format("Action {} of {}", i + 1, actions.size()),
-                       static_cast<double>(i) / static_cast<double>(actions.size()));
-        replay.perform(actions[i], {context.stop, {}});
+        work.context().report(fmt::format("Action {} of {}", i + 1, actions.size()),
+                              static_cast<double>(i) / static_cast<double>(actions.size()));
+        replay.perform(actions[i], {work.context().stop, {}});
     }
-    timings["replay"] = replaying.seconds();
-    const Assessment before = assess(replay.opened(), context, timings);
-    const Assessment quality = assess_result(replay.mesh(), before, context, timings);
+    work.end_phase("replay");
+    const Assessment before = assess(replay.opened(), work);
+    const Assessment quality = assess_result(replay.mesh(), before, work);
     if (writes)
         write_output(options.output, replay.mesh(), replay.fields(), quality.report ? &*quality.report : nullptr,
-                     &replay.opened().coordinates(), invocation, timings);
-    finish_timings(timings, watch);
+                     &replay.opened().coordinates(), work);
     const std::filesystem::path file = writes ? options.output.file : std::filesystem::path(replay.mesh_file());
-    if (invocation.common.json) {
+    if (work.is_json()) {
         Json json = {{"mesh", mesh_json(file, replay.mesh())}, {"actions", actions.size()}};
         add_assessment(json, quality);
         add_assessment(json["before"], before);
         json["worst"] = quality.report ? worst_json(replay.mesh(), *quality.report) : Json::array();
-        json["timings"] = timings;
-        print_json(json);
+        work.print(json);
     } else {
         fmt::print("{}: {}\n", file.string(), mesh_line(replay.mesh()));
         fmt::print("{} {} replayed\n", actions.size(), actions.size() == 1 ? "action" : "actions");

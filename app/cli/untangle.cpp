@@ -25,7 +25,8 @@ constexpr const char* signed_method = "signed-angle";
 constexpr const char* unsigned_method = "unsigned-angle";
 
 struct Options {
-    std::filesystem::path mesh, trace, report;
+    InputOptions input;
+    std::filesystem::path trace, report;
     bool has_report = false;  ///< an empty name is one, though a bad one
     OutputOptions output;
     std::string method = guaranteed_method;
@@ -91,20 +92,18 @@ void check_options(const CLI::App& command, const std::string& method,
 
 /// Files beside the report's that must not be in its way.
 std::vector<std::filesystem::path> report_neighbours(const Options& options) {
-    std::vector<std::filesystem::path> files{options.mesh, options.output.file};
+    std::vector<std::filesystem::path> files{options.input.file, options.output.file};
     if (!options.trace.empty()) files.push_back(options.trace);
     return files;
 }
 
-int run(const Options& options, const Invocation& invocation, const TaskContext& context) {
+int run(const Options& options, Work& work) {
     check_output(options.output);
     if (options.has_report) check_report_folder(options.report, report_neighbours(options));
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult read = read_input(options.mesh, invocation, context, timings);
+    const ReadResult read = read_input(options.input, work);
     const CurvedMesh& input = read.mesh;
-    const QualityReport before = certify(input, context, timings);
-    warn_about_orientation(before, invocation);
+    const QualityReport before = certify(input, work);
+    note_orientation(before, work);
     std::optional<TraceFile> trace;
     ConvergenceLog log;
     ObserverFan observers;
@@ -115,29 +114,28 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
     const std::string warped_first = options.warp_first ? to_string(*options.warp_first) : "";
     CurvedMesh start = input;
     if (options.warp_first) {
-        const Stopwatch warping;
         WarpOptions warp;
         warp.weighting = *options.warp_first;
-        start = input.with_coordinates(warp_from_straight(input, warp, context).coordinates);
-        timings["warp"] = warping.seconds();
+        start = input.with_coordinates(warp_from_straight(input, warp, work.context()).coordinates);
+        work.end_phase("warp");
     }
-    const UntangleRun result = run_untangling(start, of_method, observers.observer(), context);
-    for (const auto& [name, seconds] : result.timings) timings[name] = seconds;
+    const UntangleRun result = run_untangling(start, of_method, observers.observer(), work.context());
+    work.end_phase("prepare", result.timings);
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
-    const QualityReport after = certify_result(mesh, before, context, timings);
-    const ShapeSummary shape_before = assess_shape(input, input.coordinates(), context);
-    const ShapeSummary shape = assess_shape(mesh, input.coordinates(), context);
+    const QualityReport after = certify_result(mesh, before, work);
+    const ShapeSummary shape_before = assess_shape(input, input.coordinates(), work.context());
+    const ShapeSummary shape = assess_shape(mesh, input.coordinates(), work.context());
+    work.end_phase("shape");
     std::unique_ptr<ReportFiles> report;
     if (options.has_report) {
-        const UntangleFacts facts{options.mesh, input, before, mesh, after, of_method, warped_first, result, log};
-        report = write_report(options.report, facts, invocation, context, timings);
+        const UntangleFacts facts{options.input.file, input, before, mesh, after, of_method, warped_first, result, log};
+        report = write_report(options.report, facts, work);
     }
     if (trace) trace->commit();
-    write_output(options.output, mesh, read.fields, &after, &input.coordinates(), invocation, timings);
+    write_output(options.output, mesh, read.fields, &after, &input.coordinates(), work);
     if (report) report->commit();
-    finish_timings(timings, watch);
 
-    if (invocation.common.json) {
+    if (work.is_json()) {
         Json json = {{"mesh", mesh_json(options.output.file, mesh)}};
         json.update(run_json(input.topology(), of_method, warped_first, result));
         json.update(
@@ -147,12 +145,11 @@ int run(const Options& options, const Invocation& invocation, const TaskContext&
              {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
              {"worst", worst_json(mesh, after)}});
         if (report) json["report"] = options.report.string();
-        json["timings"] = timings;
-        print_json(json);
+        work.print(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
-        fmt::print("{}\n", run_text(input.topology(), of_method, result, timings));
+        fmt::print("{}\n", run_text(input.topology(), of_method, result, work.timings()));
         if (report) fmt::print("report  {}\n", (options.report / report_html_name).string());
     }
     return validity_status(after.summary);
@@ -164,7 +161,7 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
     auto* command = add_command(app, invocation, "untangle",
                                 "Make invalid elements valid; the boundary stays unless told otherwise");
     auto options = std::make_shared<Options>();
-    add_input_option(*command, options->mesh);
+    add_input_option(*command, options->input);
     add_output_options(*command, options->output);
     options->signed_angles.beta_choice = BetaChoice::automatic;
     command

@@ -7,9 +7,7 @@
 
 namespace curvewright::cli {
 
-std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, const UntangleFacts& facts,
-                                          const Invocation& invocation, const TaskContext& context, Json& timings) {
-    const Stopwatch watch;
+std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, const UntangleFacts& facts, Work& work) {
     ReportSource source{{facts.file.filename().string(), sha256_of_file(facts.file), {}, {}},
                         facts.before,
                         facts.quality_before,
@@ -20,15 +18,14 @@ std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, c
                         facts.run,
                         facts.log,
                         {}};
-    for (const auto& [name, seconds] : timings.items()) source.timings.emplace_back(name, seconds.get<double>());
-    const RunReport report = collect_report(source, context);
+    for (const auto& [name, seconds] : work.timings().items()) source.timings.emplace_back(name, seconds.get<double>());
+    const RunReport report = collect_report(source, work.context());
     ReportPainter painter(facts.before, facts.quality_before, facts.after, facts.quality_after);
     const ReportPictures pictures = draw_pictures(
-        report, [&painter](const PictureWish& wish) { return painter.paint(wish); }, context);
-    if (!pictures.note.empty() && !invocation.common.quiet)
-        fmt::print(stderr, "The report has no pictures: {}\n", pictures.note);
+        report, [&painter](const PictureWish& wish) { return painter.paint(wish); }, work.context());
+    if (!pictures.note.empty()) work.note(fmt::format("The report has no pictures: {}", pictures.note));
     auto files = std::make_unique<ReportFiles>(folder, report, pictures, report_colors());
-    timings["report"] = watch.seconds();
+    work.end_phase("report");
     return files;
 }
 

@@ -22,9 +22,8 @@ struct UntangleFacts {
     const ConvergenceLog& log;
 };
 
-/// Makes the report of a run, with pictures where they can be drawn (else it says so on standard error, unless
-/// --quiet). It becomes visible with commit(). Timed as "report".
-std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, const UntangleFacts& facts,
-                                          const Invocation& invocation, const TaskContext& context, Json& timings);
+/// Makes the report of a run, with pictures where they can be drawn (else a note says so). It becomes visible with
+/// commit(). Timed as "report".
+std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, const UntangleFacts& facts, Work& work);
 
 }  // namespace curvewright::cli

@@ -20,21 +20,30 @@ struct Outcome {
     bool is_complete() const { return !increments || increments->is_complete(); }
 };
 
+/// The parts that the warp has timed itself, and the rest of it.
+void end_warp_phase(const WarpReport& report, Work& work) {
+    work.end_phase("warp", {{"neighbours", report.neighbours_seconds},
+                            {"weights", report.weights_seconds},
+                            {"solve", report.solve_seconds}});
+}
+
 Outcome move(const WarpArguments& arguments, const CurvedMesh& input, const Deformation& deformation,
-             const Assessment& before, const TaskContext& context, Json& timings) {
+             const Assessment& before, Work& work) {
     WarpOptions options = arguments.warp;
     options.prescribed_nodes = prescribed_interior_nodes(input, deformation);
     if (arguments.steps) {
         const BoundaryPath path = [&](double fraction) { return apply_deformation(input, deformation, fraction); };
-        IncrementalResult result = warp_in_increments(input, path, options, arguments.increments(), context);
+        IncrementalResult result = warp_in_increments(input, path, options, arguments.increments(), work.context());
+        end_warp_phase(result.report, work);
         return {input.with_coordinates(std::move(result.coordinates)),
                 std::move(result.report),
                 {std::move(result.quality), {}},
                 std::move(result.increments)};
     }
-    WarpResult result = warp(input, apply_deformation(input, deformation), options, context);
+    WarpResult result = warp(input, apply_deformation(input, deformation), options, work.context());
+    end_warp_phase(result.report, work);
     CurvedMesh mesh = input.with_coordinates(std::move(result.coordinates));
-    Assessment quality = assess_result(mesh, before, context, timings);
+    Assessment quality = assess_result(mesh, before, work);
     return {std::move(mesh), std::move(result.report), std::move(quality), {}};
 }
 
@@ -77,8 +86,7 @@ Json increments_json(int asked, const IncrementReport& report, const MeshTopolog
             {"steps", steps}};
 }
 
-Json result_json(const WarpArguments& arguments, const Assessment& before, const Outcome& outcome,
-                 const Json& timings) {
+Json result_json(const WarpArguments& arguments, const Assessment& before, const Outcome& outcome) {
     const MeshTopology& topology = outcome.mesh.topology();
     const WarpReport& report = outcome.report;
     Json json = {{"mesh", mesh_json(arguments.output.file, outcome.mesh)},
@@ -95,7 +103,6 @@ Json result_json(const WarpArguments& arguments, const Assessment& before, const
                       {"note", report.solver_note}};
     json["outside_hull"] = tags_json(topology, report.outside_hull);
     json["degenerate"] = tags_json(topology, report.degenerate);
-    json["timings"] = timings;
     return json;
 }
 
@@ -110,58 +117,48 @@ void print_result(const WarpArguments& arguments, const Assessment& before, cons
     fmt::print("{}\n", outcome.report.solver_note);
 }
 
-void report_nodes(const MeshTopology& topology, const std::vector<Index>& nodes, const std::string& what) {
+void note_nodes(const MeshTopology& topology, const std::vector<Index>& nodes, const std::string& what, Work& work) {
     if (nodes.empty()) return;
     std::string list;
     for (std::size_t i = 0; i < nodes.size() && i < 5; ++i)
         list += fmt::format("{}{}", i > 0 ? ", " : "", topology.node_tag(nodes[i]).value);
-    fmt::print(stderr, "{} {} {} (node {}{})\n", nodes.size(), nodes.size() == 1 ? "node" : "nodes", what, list,
-               nodes.size() > 5 ? ", ..." : "");
+    work.note(fmt::format("{} {} {} (node {}{}).", nodes.size(), nodes.size() == 1 ? "node" : "nodes", what, list,
+                          nodes.size() > 5 ? ", ..." : ""));
 }
 
 /// What the user should know besides the result.
-void print_remarks(const WarpArguments& arguments, const Outcome& outcome, const Invocation& invocation) {
-    if (invocation.common.quiet) return;
+void note_remarks(const WarpArguments& arguments, const Outcome& outcome, Work& work) {
     const MeshTopology& topology = outcome.mesh.topology();
     for (const std::string& name : arguments.without_effect)
-        fmt::print(stderr, "{} has no effect with --weights {}.\n", name, to_string(arguments.warp.weighting));
-    report_nodes(topology, outcome.report.outside_hull,
-                 "outside the hull of the neighbours: affine weights were taken");
-    report_nodes(topology, outcome.report.degenerate, "with neighbours that do not span the space");
+        work.note(fmt::format("{} has no effect with --weights {}.", name, to_string(arguments.warp.weighting)));
+    note_nodes(topology, outcome.report.outside_hull, "outside the hull of the neighbours: affine weights were taken",
+               work);
+    note_nodes(topology, outcome.report.degenerate, "with neighbours that do not span the space", work);
     // On standard output where that is for people.
-    if (!outcome.is_complete() && invocation.common.json)
-        fmt::print(stderr, "{}\n", describe(*outcome.increments, topology));
+    if (!outcome.is_complete() && work.is_json()) work.note(describe(*outcome.increments, topology));
     if (outcome.quality.report && outcome.quality.report->summary.invalid > 0) {
         const QualitySummary& summary = outcome.quality.report->summary;
-        fmt::print(stderr, "{} of {} elements are invalid; --increments auto{} may help.\n", summary.invalid,
-                   summary.elements(),
-                   arguments.warp.weighting == Weighting::elastic
-                       ? ""
-                       : ", --weights elastic or another --distance-power (0, 4)");
+        work.note(fmt::format(
+            "{} of {} elements are invalid; --increments auto{} may help.", summary.invalid, summary.elements(),
+            arguments.warp.weighting == Weighting::elastic ? ""
+                                                           : ", --weights elastic or another --distance-power (0, 4)"));
     }
 }
 
-int run(const WarpArguments& arguments, const Invocation& invocation, const TaskContext& context) {
+int run(const WarpArguments& arguments, Work& work) {
     check_output(arguments.output);
-    const Stopwatch watch;
-    Json timings = Json::object();
-    const ReadResult read = read_input(arguments.mesh, invocation, context, timings);
+    const ReadResult read = read_input(arguments.input, work);
     const CurvedMesh& input = read.mesh;
-    const Deformation deformation = read_deformation(arguments.deformation, context);
-    const Assessment before = assess(input, context, timings);
-    if (before.report) warn_about_orientation(*before.report, invocation);
-    const Outcome outcome = move(arguments, input, deformation, before, context, timings);
-    timings["neighbours"] = outcome.report.neighbours_seconds;
-    timings["weights"] = outcome.report.weights_seconds;
-    timings["solve"] = outcome.report.solve_seconds;
+    const Deformation deformation = read_deformation(arguments.deformation, work.context());
+    const Assessment before = assess(input, work);
+    if (before.report) note_orientation(*before.report, work);
+    const Outcome outcome = move(arguments, input, deformation, before, work);
     write_output(arguments.output, outcome.mesh, read.fields,
-                 outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), invocation,
-                 timings);
-    finish_timings(timings, watch);
+                 outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), work);
 
-    print_remarks(arguments, outcome, invocation);
-    if (invocation.common.json)
-        print_json(result_json(arguments, before, outcome, timings));
+    note_remarks(arguments, outcome, work);
+    if (work.is_json())
+        work.print(result_json(arguments, before, outcome));
     else
         print_result(arguments, before, outcome);
     if (!outcome.is_complete()) return exit_not_valid;

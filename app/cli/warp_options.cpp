@@ -131,7 +131,7 @@ IncrementOptions WarpArguments::increments() const {
 }
 
 void add_warp_options(CLI::App& command, WarpArguments& arguments) {
-    add_input_option(command, arguments.mesh);
+    add_input_option(command, arguments.input);
     add_deformation_option(command, arguments.deformation);
     add_output_options(command, arguments.output);
     add_weight_options(command, arguments.warp);

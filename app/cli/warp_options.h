@@ -12,7 +12,8 @@ namespace curvewright::cli {
 
 /// What the command line of `warp` says.
 struct WarpArguments {
-    std::filesystem::path mesh, deformation;
+    InputOptions input;
+    std::filesystem::path deformation;
     OutputOptions output;
     WarpOptions warp;
     std::optional<int> steps;  ///< --increments: 0 = auto; none: the whole motion at once

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "app/cli/command.h"
+#include "core/base/stopwatch.h"
+
+namespace curvewright::cli {
+
+using Json = nlohmann::ordered_json;
+
+/// A command at work: what it was asked, the notes it has for the user, and where its time goes.
+class Work {
+  public:
+    Work(const Invocation& invocation, const TaskContext& context) : invocation_(invocation), context_(context) {}
+
+    const TaskContext& context() const { return context_; }
+    bool is_json() const { return invocation_.common.json; }
+    bool is_quiet() const { return invocation_.common.quiet; }
+
+    /// One sentence that the user should know besides the result: on standard error at once, unless --quiet, and among
+    /// the "notes" of --json in any case.
+    void note(const std::string& sentence);
+    void notes(const std::string& prefix, const std::vector<std::string>& sentences);
+
+    /// The time since the last phase ended, or since the start, belongs to this one, so that the phases add up to the
+    /// total. A phase may end several times.
+    void end_phase(const std::string& phase);
+    /// The same, but parts of the time (seconds) have names of their own.
+    void end_phase(const std::string& phase, const std::vector<std::pair<std::string, double>>& parts);
+    /// Seconds by phase; without the total.
+    const Json& timings() const { return timings_; }
+    double seconds(const std::string& phase) const { return timings_.value(phase, 0.0); }
+
+    /// Prints the result as one JSON object on standard output, with "notes" and "timings" at its end. Bytes that are
+    /// no UTF-8 (in file or group names) become U+FFFD.
+    void print(Json json);
+
+  private:
+    void add(const std::string& phase, double seconds);
+
+    const Invocation& invocation_;
+    const TaskContext& context_;
+    std::vector<std::string> notes_;
+    Json timings_ = Json::object();
+    Stopwatch watch_;
+    double phase_began_ = 0.0;
+};
+
+}  // namespace curvewright::cli
