@@ -34,6 +34,8 @@ struct CommonOptions {
 /// What the user asked for: filled by the options of the chosen command; action runs it and gives the exit status.
 struct Invocation {
     CommonOptions common;
+    /// What files record of it (see recorded_command.h).
+    std::string command;
     std::function<int(const Invocation&, const TaskContext&)> action;
 };
 

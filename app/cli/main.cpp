@@ -7,6 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/cli/recorded_command.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
     add_animate(app, invocation);
     try {
         app.parse(argc, argv);
+        invocation.command = recorded_command(*app.get_subcommands().front());
     } catch (const CLI::ParseError& error) {
         // Help and version end with 0; CLI11's own numbers for the rest are not ours.
         return app.exit(error) == 0 ? exit_done : exit_wrong_usage;

@@ -52,6 +52,7 @@ std::string summary_line(const QualitySummary& summary) {
 }
 
 ReadResult read_input(const InputOptions& input, Work& work) {
+    work.set_input(input.file);
     ReadResult result = read_mesh(input.file, work.context());
     work.notes(input.file.string(), result.notes);
     work.end_phase("read");
@@ -121,6 +122,8 @@ void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std
                   const QualityReport* quality, const Coordinates* reference, Work& work) {
     WriteOptions options = output.write_options(quality, reference);
     options.fields = &fields;
+    const Provenance provenance = work.provenance();
+    options.provenance = &provenance;
     work.notes(output.file.string(), write_mesh(output.file, mesh, options));
     work.end_phase("write");
 }

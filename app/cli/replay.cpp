@@ -36,6 +36,7 @@ int run(const Options& options, Work& work) {
     work.end_phase("replay");
     const Assessment before = assess(replay.opened(), work);
     const Assessment quality = assess_result(replay.mesh(), before, work);
+    work.set_input(replay.mesh_file());
     if (writes)
         write_output(options.output, replay.mesh(), replay.fields(), quality.report ? &*quality.report : nullptr,
                      &replay.opened().coordinates(), work);

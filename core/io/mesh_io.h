@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/provenance.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/mesh/field_array.h"
 #include "core/quality/quality.h"
@@ -20,7 +21,7 @@ const char* to_string(MeshFormat format);
 struct ReadResult {
     CurvedMesh mesh;
     MeshFormat format = MeshFormat::msh4;
-    /// Things the reader passed over or repaired, one sentence each ("Section $Periodic was skipped.").
+    /// Things the reader passed over or repaired, one sentence each ("Section $Parametrizations was skipped.").
     std::vector<std::string> notes;
     /// The file's arrays of numbers on nodes and elements, with names of their own among those of one place. Not this
     /// program's own of a file that it wrote, but for Displacement.
@@ -46,6 +47,8 @@ struct WriteOptions {
     /// Arrays of the nodes and elements of this mesh, written along. An array with the name of one of the above is left
     /// out.
     const std::vector<FieldArray>* fields = nullptr;
+    /// Who makes the file; MSH: a section $Comments, VTU and VTK: bytes among the field data.
+    const Provenance* provenance = nullptr;
 };
 
 /// Writes a mesh with all its cells, tags, groups and entities: to a temporary file beside the target, which takes its

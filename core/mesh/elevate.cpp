@@ -113,6 +113,8 @@ CurvedMesh elevate(const CurvedMesh& mesh, int order, const TaskContext& context
         }
     }
 
+    data.periodic = periodic_of_new_order(old, data);
+    data.partitioning = old.data().partitioning;
     Coordinates coordinates(static_cast<Eigen::Index>(positions.size()), 3);
     for (std::size_t i = 0; i < positions.size(); ++i) coordinates.row(static_cast<Eigen::Index>(i)) = positions[i];
     return {std::make_shared<const MeshTopology>(std::move(data)), std::move(coordinates)};

@@ -50,6 +50,12 @@ void MeshTopology::check_nodes_and_blocks() {
     for (const Entity& entity : data_.entities)
         if (!entities.emplace(entity.dimension, entity.tag).second)
             throw InvalidInput(fmt::format("Entity {} of dimension {} occurs twice.", entity.tag, entity.dimension));
+    for (const PeriodicLink& link : data_.periodic)
+        for (const auto& [node, master] : link.nodes)
+            if (std::min(node, master) < 0 || std::max(node, master) >= node_count())
+                throw InvalidInput(
+                    fmt::format("Periodic entity {} of dimension {} refers to a node that does not exist.", link.tag,
+                                link.dimension));
     std::vector<Index> sorted;
     for (const ElementBlock& block : data_.blocks) {
         if (block.type.order < 1 || block.type.order > max_order)

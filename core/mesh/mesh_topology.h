@@ -11,6 +11,8 @@
 
 #include "core/base/ids.h"
 #include "core/basis/element_type.h"
+#include "core/mesh/partitioning.h"
+#include "core/mesh/periodic.h"
 
 namespace curvewright {
 
@@ -24,6 +26,13 @@ struct Entity {
     std::array<double, 6> bounding_box{};
     /// Signed tags of the entities of dimension - 1 that bound it.
     std::vector<int> bounding_entities;
+    /// Of a part of an entity of a partitioned mesh (MSH 4): the entity that it is a part of, and the partitions it
+    /// belongs to. A border between partitions has a parent of higher dimension. Empty: no part of another entity.
+    std::vector<int> partitions{};
+    int parent_dimension = -1;
+    int parent_tag = 0;
+
+    bool is_partition() const { return !partitions.empty(); }
 };
 
 /// A named set of entities of one dimension (MSH "physical group"). The name may be empty.
@@ -61,6 +70,9 @@ struct MeshData {
     std::vector<ElementBlock> blocks;
     std::vector<Entity> entities;
     std::vector<PhysicalGroup> groups;
+    /// Entities whose nodes correspond; what it means is up to who reads it.
+    std::vector<PeriodicLink> periodic{};
+    Partitioning partitioning{};
 };
 
 /// A facet (edge in 2D, face in 3D) of an element.
@@ -76,7 +88,8 @@ struct Facet {
 /// nodes.
 class MeshTopology {
   public:
-    /// Checks the data: node positions in range, tags unique, no element twice the same node, entities unique.
+    /// Checks the data: node positions in range, tags unique, no element twice the same node, entities unique,
+    /// periodic nodes in range.
     /// Throws InvalidInput with the tag of the offending thing; no file name (the reader adds it).
     explicit MeshTopology(MeshData data);
 
@@ -104,7 +117,8 @@ class MeshTopology {
     /// The type that all elements share; none if the mesh mixes types or is empty.
     std::optional<ElementType> uniform_type() const { return uniform_type_; }
 
-    /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the elements.
+    /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the
+    /// elements.
     const std::vector<Facet>& boundary_facets() const { return boundary_facets_; }
     /// Positions (in the element) to nodes: the facet's nodes in its own order.
     std::vector<Index> facet_nodes(Facet facet) const;

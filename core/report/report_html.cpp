@@ -302,6 +302,8 @@ std::string input_section(const RunReport& report) {
     for (const auto& [name, version] : report.versions)
         versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", escaped(name), escaped(version));
     html += property("Versions", versions);
+    if (!report.made_by.empty())
+        html += property("Made by", "<span class=\"mono\">" + escaped(report.made_by) + "</span>");
     html += "</tbody></table>\n";
     if (!report.input.steps.empty()) {
         html += "<p>Before it was untangled, this was done to the mesh of the file (lines of a session):</p>\n<pre>";

@@ -162,6 +162,8 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
         {"input", input_json(report)},
         {"method", {{"name", report.method}, {"parameters", parameters}, {"command", or_null(report.command)}}},
         {"versions", versions},
+        {"made_by",
+         {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
         {"before", quality_json(report.before)},
         {"after", quality_json(report.after)},
         {"outcome", outcome_json(report)},

@@ -151,6 +151,7 @@ RunReport collect_report(const ReportSource& source, const TaskContext& context)
         report.command = command_line(UntangleAction{source.options}, source.input.file, "untangled.vtu");
         if (!source.warped_first.empty()) report.command += " --warp-first " + source.warped_first;
     }
+    report.made_by = source.made_by;
     report.versions = program_versions();
 
     report.before = describe_quality(source.quality_before, source.before, source.before.coordinates(), context);
