@@ -18,6 +18,7 @@ int run(const Options& options, Work& work) {
     check_output(options.output);
     const ReadResult input = read_input(options.input, work);
     const CurvedMesh mesh = elevate(input.mesh, options.order, work.context());
+    for (const std::string& gap : periodic_gaps(mesh.topology())) work.note(gap);
     work.end_phase("elevate");
     // The elements are the same, the nodes are others.
     std::vector<FieldArray> fields;

@@ -60,6 +60,8 @@ int run(const InputOptions& options, Work& work) {
             {"groups", groups},
             {"arrays", arrays},
             {"entities", topology.entities().size()},
+            {"periodic", topology.data().periodic.size()},
+            {"partitions", topology.data().partitioning.count},
             {"orientation", orientation},
             {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
         };
@@ -76,6 +78,11 @@ int run(const InputOptions& options, Work& work) {
         fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
                    group["used_as"].get<std::string>(), group["dimension"].get<int>(), group["tag"].get<int>(),
                    group["cells"].get<long>(), group["nodes"].get<std::size_t>());
+    for (const PeriodicLink& link : topology.data().periodic)
+        fmt::print("  periodic     entity {} of dimension {} is a copy of {}: {} nodes\n", link.tag, link.dimension,
+                   link.master_tag, link.nodes.size());
+    if (const int partitions = topology.data().partitioning.count; partitions > 0)
+        fmt::print("  partitions   {}\n", partitions);
     for (const Json& array : arrays)
         fmt::print("  array        {} on {}: {}, {}\n", array["name"].get<std::string>(),
                    array["on"].get<std::string>(),

@@ -418,6 +418,7 @@ void MshReader::read_elements_2() {
         const int elementary = tags > 1 ? in_.integer<int>("the tag of an elementary entity") : 0;
         std::vector<int> partitions = read_element_partitions(in_, tags > 2 ? tags - 2 : 0);
         read_element_nodes(type, tag);
+        for (const int partition : partitions) data_.partitioning.count = std::max(data_.partitioning.count, partition);
         if (!partitions.empty())
             data_.partitioning.element_partitions.push_back({dimension(type.shape), {tag}, std::move(partitions)});
         if (elements.add(type, {tag}, physical, elementary, nodes_) == Msh2Elements::Outcome::conflict)

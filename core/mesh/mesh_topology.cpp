@@ -182,12 +182,14 @@ void MeshTopology::find_interfaces(const std::vector<FacetKey>& keys) {
     is_interface_node_.assign(static_cast<std::size_t>(node_count()), 0);
     const std::vector<int> regions = regions_of_blocks(data_);
     std::vector<Corners> stored;  // cells of the facets' dimension
-    std::set<std::pair<int, int>> named;
-    for (const Entity& entity : data_.entities)
+    std::set<std::pair<int, int>> named, borders;
+    for (const Entity& entity : data_.entities) {
         if (!entity.physical_tags.empty()) named.emplace(entity.dimension, entity.tag);
+        if (entity.is_partition_border()) borders.emplace(entity.dimension, entity.tag);
+    }
     for (const ElementBlock& block : data_.blocks) {
         const int dim = curvewright::dimension(block.type.shape);
-        if (dim >= dimension_) continue;
+        if (dim >= dimension_ || borders.contains({dim, block.entity_tag})) continue;
         const auto per_cell = static_cast<std::size_t>(curvewright::node_count(block.type));
         if (dim == dimension_ - 1) {
             for (std::size_t first = 0; first < block.nodes.size(); first += per_cell)

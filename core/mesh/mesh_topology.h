@@ -33,6 +33,8 @@ struct Entity {
     int parent_tag = 0;
 
     bool is_partition() const { return !partitions.empty(); }
+    /// Whether it was cut out of an entity of higher dimension, between partitions: no geometry.
+    bool is_partition_border() const { return is_partition() && parent_dimension > dimension; }
 };
 
 /// A named set of entities of one dimension (MSH "physical group"). The name may be empty.

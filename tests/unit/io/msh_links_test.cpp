@@ -170,6 +170,12 @@ TEST(Partitions, are_kept_in_41) {
     }
 }
 
+TEST(Partitions, borders_are_no_geometry) {
+    const CurvedMesh mesh = read_mesh(test_data(partitioned_41)).mesh;
+    EXPECT_TRUE(mesh.topology().interface_facets().empty());
+    EXPECT_TRUE(mesh.topology().interface_nodes().empty());
+}
+
 TEST(Partitions, are_kept_in_22_and_go_between_the_versions) {
     const TemporaryFolder folder;
     const ReadResult read = read_mesh(test_data(partitioned_22));
