@@ -13,12 +13,14 @@
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkIntArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
@@ -289,7 +291,33 @@ std::string xml_text(vtkUnstructuredGrid& grid, bool is_text) {
     return writer->Write() == 0 ? std::string() : std::move(writer->GetOutputString());
 }
 
+/// Integers of 64 bits that need no more than 32 get those: other programs do not know the type that VTK 9 writes for
+/// the former into legacy files.
+void narrow_integers(vtkFieldData& data) {
+    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
+        arrays.emplace_back(data.GetAbstractArray(i));
+        auto* wide = vtkTypeInt64Array::SafeDownCast(arrays.back());
+        if (wide == nullptr) continue;
+        const vtkTypeInt64* values = wide->GetPointer(0);
+        const vtkIdType count = wide->GetNumberOfValues();
+        if (!std::all_of(values, values + count, [](vtkTypeInt64 value) { return std::in_range<int>(value); }))
+            continue;
+        vtkNew<vtkIntArray> narrow;
+        narrow->SetName(wide->GetName());
+        narrow->SetNumberOfComponents(wide->GetNumberOfComponents());
+        narrow->SetNumberOfTuples(wide->GetNumberOfTuples());
+        std::copy(values, values + count, narrow->GetPointer(0));
+        arrays.back() = narrow;
+    }
+    data.Initialize();
+    for (vtkAbstractArray* array : arrays) data.AddArray(array);
+}
+
 std::string legacy_file_text(vtkUnstructuredGrid& grid, const MeshTopology& topology, bool is_text) {
+    for (vtkFieldData* data :
+         std::initializer_list<vtkFieldData*>{grid.GetFieldData(), grid.GetPointData(), grid.GetCellData()})
+        narrow_integers(*data);
     vtkNew<vtkUnstructuredGridWriter> writer;
     writer->SetHeader("Curvewright mesh");
     // Version 4.2 is what most other programs read, but in it VTK takes Lagrange hexahedra to be in its old order.
