@@ -76,6 +76,22 @@ void place_nodes(MeshData& data) {
     }
 }
 
+/// Gives the entities of periodic links a place: Gmsh reads no link of an entity that the file does not have, and
+/// MSH 2.2 has only those with elements.
+void place_periodic_entities(MeshData& data, const Coordinates& coordinates) {
+    std::set<EntityKey> known;
+    for (const Entity& entity : data.entities) known.emplace(entity.dimension, entity.tag);
+    for (const PeriodicLink& link : data.periodic)
+        for (const bool is_master : {false, true}) {
+            const int tag = is_master ? link.master_tag : link.tag;
+            if (tag <= 0 || !known.emplace(link.dimension, tag).second) continue;
+            GrowingBox box;
+            for (const auto& [node, master] : link.nodes) box.add(coordinates, is_master ? master : node);
+            data.entities.push_back({link.dimension, tag, {}, {}, {}});
+            if (!box.is_empty()) data.entities.back().bounding_box = box.bounds;
+        }
+}
+
 void check_types(const MeshData& data) {
     for (const ElementBlock& block : data.blocks)
         if (block.size() > 0 && !msh_type_of(block.type))
@@ -213,6 +229,7 @@ MeshData prepared(const CurvedMesh& mesh, bool with_nodes) {
     place_cells(data);
     complete_entities(data, mesh.coordinates());
     if (with_nodes) {
+        place_periodic_entities(data, mesh.coordinates());
         if (!data.partitioning.element_partitions.empty()) {
             make_partition_entities(data);
             complete_entities(data, mesh.coordinates());

@@ -21,6 +21,7 @@
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
@@ -291,42 +292,54 @@ std::string xml_text(vtkUnstructuredGrid& grid, bool is_text) {
     return writer->Write() == 0 ? std::string() : std::move(writer->GetOutputString());
 }
 
-/// Integers of 64 bits that need no more than 32 get those: other programs do not know the type that VTK 9 writes for
-/// the former into legacy files.
-void narrow_integers(vtkFieldData& data) {
+/// The values of an integer array as one of another type; null if they do not fit.
+template <class To, class From>
+vtkSmartPointer<vtkAbstractArray> converted(From& array) {
+    using Value = typename To::ValueType;
+    const auto* values = array.GetPointer(0);
+    const vtkIdType count = array.GetNumberOfValues();
+    if (!std::all_of(values, values + count, [](vtkTypeInt64 value) { return std::in_range<Value>(value); })) return {};
+    vtkNew<To> result;
+    result->SetName(array.GetName());
+    result->SetNumberOfComponents(array.GetNumberOfComponents());
+    result->SetNumberOfTuples(array.GetNumberOfTuples());
+    std::copy(values, values + count, result->GetPointer(0));
+    return result.Get();
+}
+
+template <class To>
+vtkSmartPointer<vtkAbstractArray> with_integers(vtkAbstractArray* array) {
+    vtkSmartPointer<vtkAbstractArray> result;
+    if (auto* wide = vtkTypeInt64Array::SafeDownCast(array)) result = converted<To>(*wide);
+    if (auto* narrow = vtkIntArray::SafeDownCast(array)) result = converted<To>(*narrow);
+    if (auto* bytes = vtkUnsignedCharArray::SafeDownCast(array)) result = converted<To>(*bytes);
+    return result != nullptr ? result : vtkSmartPointer<vtkAbstractArray>(array);
+}
+
+/// Makes all integers, and bytes, those that other programs know in legacy files: of 32 bits ("int") in version 4.2,
+/// where they fit, of 64 bits ("vtktypeint64") in version 5.1.
+void use_common_integers(vtkFieldData& data, bool is_version_5) {
     std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
-    for (int i = 0; i < data.GetNumberOfArrays(); ++i) {
-        arrays.emplace_back(data.GetAbstractArray(i));
-        auto* wide = vtkTypeInt64Array::SafeDownCast(arrays.back());
-        if (wide == nullptr) continue;
-        const vtkTypeInt64* values = wide->GetPointer(0);
-        const vtkIdType count = wide->GetNumberOfValues();
-        if (!std::all_of(values, values + count, [](vtkTypeInt64 value) { return std::in_range<int>(value); }))
-            continue;
-        vtkNew<vtkIntArray> narrow;
-        narrow->SetName(wide->GetName());
-        narrow->SetNumberOfComponents(wide->GetNumberOfComponents());
-        narrow->SetNumberOfTuples(wide->GetNumberOfTuples());
-        std::copy(values, values + count, narrow->GetPointer(0));
-        arrays.back() = narrow;
-    }
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i)
+        arrays.push_back(is_version_5 ? with_integers<vtkTypeInt64Array>(data.GetAbstractArray(i))
+                                      : with_integers<vtkIntArray>(data.GetAbstractArray(i)));
     data.Initialize();
     for (vtkAbstractArray* array : arrays) data.AddArray(array);
 }
 
 std::string legacy_file_text(vtkUnstructuredGrid& grid, const MeshTopology& topology, bool is_text) {
-    for (vtkFieldData* data :
-         std::initializer_list<vtkFieldData*>{grid.GetFieldData(), grid.GetPointData(), grid.GetCellData()})
-        narrow_integers(*data);
     vtkNew<vtkUnstructuredGridWriter> writer;
     writer->SetHeader("Curvewright mesh");
-    // Version 4.2 is what most other programs read, but in it VTK takes Lagrange hexahedra to be in its old order.
+    // Version 4.2 is what most other programs read, but Lagrange cells only those that read 5.1 as well, and hexahedra
+    // among them VTK takes to be in its old order in 4.2.
     const auto& blocks = topology.blocks();
-    const bool has_curved_hexahedra = std::any_of(blocks.begin(), blocks.end(), [](const ElementBlock& block) {
-        return block.type.shape == Shape::hexahedron && block.type.order > 1;
-    });
-    writer->SetFileVersion(has_curved_hexahedra ? vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_5_1
-                                                : vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
+    const bool has_lagrange_cells =
+        std::any_of(blocks.begin(), blocks.end(), [](const ElementBlock& block) { return block.type.order > 1; });
+    writer->SetFileVersion(has_lagrange_cells ? vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_5_1
+                                              : vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
+    for (vtkFieldData* data :
+         std::initializer_list<vtkFieldData*>{grid.GetFieldData(), grid.GetPointData(), grid.GetCellData()})
+        use_common_integers(*data, has_lagrange_cells);
     writer->SetInputData(&grid);
     if (is_text) {
         writer->SetFileTypeToASCII();

@@ -106,6 +106,18 @@ TEST(Periodic, is_kept_by_every_format) {
     }
 }
 
+TEST(Periodic, entities_that_22_does_not_have_stand_in_41) {
+    const TemporaryFolder folder;
+    const CurvedMesh mesh = read_mesh(folder.write("a.msh", head_22 + nodes_and_elements_22 +
+                                                                "$Periodic\n1\n0 8 9\n1\n2 1\n$EndPeriodic\n"))
+                                .mesh;
+    const CurvedMesh in_41 = rewritten(folder, mesh, MeshFormat::msh4).mesh;
+    const auto entities = entities_of(in_41);
+    ASSERT_TRUE(entities.contains({0, 8}) && entities.contains({0, 9}));
+    EXPECT_EQ(std::get<1>(entities.at({0, 8})), (std::array<double, 6>{1, 0, 0, 1, 0, 0}));  // node 2
+    EXPECT_EQ(links_of(in_41), links_of(mesh));
+}
+
 TEST(Periodic, pairs_of_strangers_are_passed_over_with_a_note) {
     const TemporaryFolder folder;
     const ReadResult result = read_mesh(folder.write(
