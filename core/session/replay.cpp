@@ -96,6 +96,9 @@ CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMes
                 return mesh.with_coordinates(warped(mesh, its, deformation_of(its.deformation), context));
             },
             [&](const UntangleAction& its) { return mesh.with_coordinates(untangled(mesh, its.options, context)); },
+            [&](const ImproveAction& its) {
+                return mesh.with_coordinates(improve(mesh, its.options, nullptr, context).coordinates);
+            },
             [&](const FlipAction&) { return flip_orientation(mesh); },
             [&](const DragAction& its) { return mesh.with_coordinates(dragged(mesh, opened, its, context)); },
             [&](const PlaceAction& its) { return mesh.with_coordinates(placed(mesh, its)); },
