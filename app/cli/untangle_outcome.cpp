@@ -53,7 +53,7 @@ void note_unmended(const MeshTopology& topology, const UntangleRun& run, Work& w
         const UnmendedElement& element = run.unmended[i];
         work.note(fmt::format(
             "Element {} {}: {}.", topology.element_tag(element.element).value,
-            element.is_proved ? "cannot be mended as long as the nodes that may not move stay" : "was not mended",
+            element.is_proved ? "cannot be mended with the boundary as it is" : "was not mended",
             element.reason));
     }
     if (run.unmended.size() > listed)

@@ -188,7 +188,8 @@ class Untangler {
             const ElementQuality& quality = work_.state().qualities[element];
             if (is_valid(quality)) continue;
             if (impossible_[element]) {
-                result_.unmended.push_back({element, impossible_[element]->reason, true, impossible_[element]->bound});
+                result_.unmended.push_back({element, impossible_[element]->reason, impossible_[element]->is_proved,
+                                            impossible_[element]->bound});
                 continue;
             }
             const auto nodes = work_.topology().element_nodes(element);
