@@ -47,9 +47,9 @@ void add_node_options(CLI::App& command, NodeArguments& arguments) {
         ->allow_extra_args(false);
 }
 
-void add_keep_best_option(CLI::App& command, bool& keeps_best) {
-    command.add_flag("--keep-best", keeps_best,
-                     "On Ctrl+C write the best valid mesh so far, if there is one, instead of nothing");
+CLI::Option* add_keep_best_option(CLI::App& command, bool& keeps_best) {
+    return command.add_flag("--keep-best", keeps_best,
+                            "On Ctrl+C write the best valid mesh so far, if there is one, instead of nothing");
 }
 
 }  // namespace curvewright::cli

@@ -20,6 +20,6 @@ struct NodeArguments {
 /// Adds --keep-vertices and --fix-nodes.
 void add_node_options(CLI::App& command, NodeArguments& arguments);
 /// Adds --keep-best.
-void add_keep_best_option(CLI::App& command, bool& keeps_best);
+CLI::Option* add_keep_best_option(CLI::App& command, bool& keeps_best);
 
 }  // namespace curvewright::cli

@@ -51,10 +51,9 @@ void note_unmended(const MeshTopology& topology, const UntangleRun& run, Work& w
     constexpr std::size_t listed = 5;
     for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i) {
         const UnmendedElement& element = run.unmended[i];
-        work.note(fmt::format(
-            "Element {} {}: {}.", topology.element_tag(element.element).value,
-            element.is_proved ? "cannot be mended with the boundary as it is" : "was not mended",
-            element.reason));
+        work.note(fmt::format("Element {} {}: {}.", topology.element_tag(element.element).value,
+                              element.is_proved ? "cannot be mended with the boundary as it is" : "was not mended",
+                              element.reason));
     }
     if (run.unmended.size() > listed)
         work.note(fmt::format("{} more elements are not valid; \"unmended\" of --json lists them all.",
