@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/report/parameters.h"
+#include "core/untangle/unmended_text.h"
 
 namespace curvewright::cli {
 namespace {
@@ -49,12 +50,8 @@ Json run_json(const MeshTopology& topology, const UntangleOptions& options, cons
 
 void note_unmended(const MeshTopology& topology, const UntangleRun& run, Work& work) {
     constexpr std::size_t listed = 5;
-    for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i) {
-        const UnmendedElement& element = run.unmended[i];
-        work.note(fmt::format("Element {} {}: {}.", topology.element_tag(element.element).value,
-                              element.is_proved ? "cannot be mended with the boundary as it is" : "was not mended",
-                              element.reason));
-    }
+    for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i)
+        work.note(describe(run.unmended[i], topology));
     if (run.unmended.size() > listed)
         work.note(fmt::format("{} more elements are not valid; \"unmended\" of --json lists them all.",
                               run.unmended.size() - listed));

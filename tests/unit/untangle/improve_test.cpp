@@ -316,7 +316,8 @@ TEST(KeptNodes, StayWhileAMeshIsImproved) {
 }
 
 TEST(KeptNodes, AreNamedByTagOrGroup) {
-    const MeshTopology& topology = testing::square_mesh(2, 2).topology();
+    const CurvedMesh mesh = testing::square_mesh(2, 2);
+    const MeshTopology& topology = mesh.topology();
     EXPECT_EQ(KeptNodes({false, {}, {"left"}}, topology).nodes(), topology.find_group_nodes("left").value());
     EXPECT_EQ(KeptNodes({false, {topology.node_tag(3)}, {}}, topology).nodes(), std::vector<Index>{3});
     EXPECT_EQ(KeptNodes({true, {}, {}}, topology).nodes().size(), 9u);  // 3 × 3 corners

@@ -116,10 +116,9 @@ TEST(Unmendable, StretchedLayersUnderACurvedWallAreNotCalledImpossible) {
 }
 
 TEST(Unmendable, ProofsThatNeedANodeFarAwayAreNoneIfTheBoundaryMayMove) {
-    // The triangle at the corner has its three corners in a line; its one movable node cannot make it valid.
     CurvedMesh mesh = testing::square_mesh(1, 1);
     Coordinates x = mesh.coordinates();
-    x.row(0) << 0.9, 0.9, 0.0;  // a corner beyond the diagonal
+    x.row(0) << 1.2, 1.2, 0.0;  // a corner beyond the one opposite
     mesh = mesh.with_coordinates(x);
     const QualityReport report = assess_quality(testing::square_mesh(1, 1));
     int impossible = 0;
