@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -184,6 +186,19 @@ class Untangler {
     }
 
     void list_unmended() {
+        list_not_valid();
+        if (result_.unmended.empty() || work_.topology().interface_nodes().empty()) return;
+        const auto names = names_of_interface_nodes(work_.topology());
+        for (UnmendedElement& unmended : result_.unmended) {
+            std::set<std::string> in_the_way;
+            for (const Index node : work_.topology().element_nodes(unmended.element))
+                if (const auto found = names.find(node); found != names.end() && !work_.may_move(node))
+                    in_the_way.insert(found->second.begin(), found->second.end());
+            unmended.fixed_interfaces.assign(in_the_way.begin(), in_the_way.end());
+        }
+    }
+
+    void list_not_valid() {
         for (Index element = 0; element < work_.topology().element_count(); ++element) {
             const ElementQuality& quality = work_.state().qualities[element];
             if (is_valid(quality)) continue;

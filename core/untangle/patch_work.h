@@ -40,7 +40,8 @@ class PatchWork {
     const std::optional<MoveLimit>& move_limit() const { return limit_; }
     bool may_move(Index node) const {
         if (kept_.is_kept(node)) return false;
-        return boundary_ ? boundary_->may_move(node) : topology_.is_interior_node(node);
+        return boundary_ ? boundary_->may_move(node)
+                         : topology_.is_interior_node(node) && !topology_.is_interface_node(node);
     }
     std::vector<ElementQuality> certify(const FreePatch& patch) const {
         return certify_elements(topology_, patch.elements, state_.coordinates, quality_options_, context_);
