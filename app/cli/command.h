@@ -86,6 +86,7 @@ void add_elevate(CLI::App& app, Invocation& invocation);
 void add_deform(CLI::App& app, Invocation& invocation);
 void add_warp(CLI::App& app, Invocation& invocation);
 void add_untangle(CLI::App& app, Invocation& invocation);
+void add_improve(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_replay(CLI::App& app, Invocation& invocation);

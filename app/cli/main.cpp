@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     add_deform(app, invocation);
     add_warp(app, invocation);
     add_untangle(app, invocation);
+    add_improve(app, invocation);
     add_convert(app, invocation);
     add_render(app, invocation);
     add_replay(app, invocation);

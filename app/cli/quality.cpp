@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
@@ -11,6 +14,7 @@ struct Options {
     InputOptions input;
     std::filesystem::path csv;
     QualityOptions quality;
+    std::optional<double> least;  ///< that every element has to have
 };
 
 std::string to_csv(const CurvedMesh& mesh, const QualityReport& report) {
@@ -23,6 +27,19 @@ std::string to_csv(const CurvedMesh& mesh, const QualityReport& report) {
     return text;
 }
 
+/// Notes how many elements are below the least quality asked for; the status.
+int note_least(const Options& options, const QualityReport& report, Work& work) {
+    const int validity = validity_status(report.summary);
+    if (!options.least) return validity;
+    const auto below =
+        std::count_if(report.elements.begin(), report.elements.end(),
+                      [&](const ElementQuality& quality) { return quality.scaled_jacobian < *options.least; });
+    if (below == 0) return validity;
+    work.note(fmt::format("{} of {} elements {} below {:g}; the least scaled Jacobian is {:.4g}.", below,
+                          report.elements.size(), below == 1 ? "is" : "are", *options.least, report.summary.min));
+    return exit_not_valid;
+}
+
 int run(const Options& options, Work& work) {
     const CurvedMesh mesh = read_input(options.input, work).mesh;
     const QualityReport report = certify(mesh, work, options.quality);
@@ -31,6 +48,7 @@ int run(const Options& options, Work& work) {
         write_text_file(options.csv, to_csv(mesh, report));
         work.end_phase("write");
     }
+    const int status = note_least(options, report, work);
     if (work.is_json()) {
         const Json json = {{"mesh", mesh_json(options.input.file, mesh)},
                            {"orientation", to_string(report.orientation)},
@@ -47,7 +65,7 @@ int run(const Options& options, Work& work) {
                        center[1], center[2]);
         }
     }
-    return validity_status(report.summary);
+    return status;
 }
 
 }  // namespace
@@ -60,6 +78,12 @@ void add_quality(CLI::App& app, Invocation& invocation) {
     command->add_option("--tolerance", options->quality.tolerance, "Width of the bounds of J, relative to max |J|")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    command
+        ->add_option_function<double>(
+            "--min", [options](const double& least) { options->least = least; },
+            "End with status 3 if an element's scaled Jacobian is below this")
+        ->type_name("Q")
+        ->check(CLI::Range(-1e300, 1.0));
     set_action(*command, invocation, options, run);
 }
 

@@ -34,6 +34,7 @@ int run(const Options& options, Work& work) {
         replay.perform(actions[i], {work.context().stop, {}});
     }
     work.end_phase("replay");
+    for (const std::string& note : replay.notes()) work.note(note);
     const Assessment before = assess(replay.opened(), work);
     const Assessment quality = assess_result(replay.mesh(), before, work);
     work.set_input(replay.mesh_file());

@@ -22,6 +22,8 @@ class Work {
     Work(const Invocation& invocation, const TaskContext& context) : invocation_(invocation), context_(context) {}
 
     const TaskContext& context() const { return context_; }
+    /// From now on the work goes on to its end whatever the user asks: what was reached so far is to be kept.
+    void ignore_stop() { context_.stop = {}; }
     bool is_json() const { return invocation_.common.json; }
     /// The command as files record it (see recorded_command.h).
     const std::string& command() const { return invocation_.command; }
@@ -54,7 +56,7 @@ class Work {
     void add(const std::string& phase, double seconds);
 
     const Invocation& invocation_;
-    const TaskContext& context_;
+    TaskContext context_;
     std::vector<std::string> notes_;
     std::filesystem::path input_;
     Json timings_ = Json::object();

@@ -142,7 +142,11 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             energy += values_[e];
             least_determinant = std::min(least_determinant, least_[e]);
         }
-        double value = options.energy_weight * (energy - count);
+        double value = options.energy_weight * (energy - count), energy_share = options.energy_weight;
+        if (options.power > 1.0) {
+            value = options.energy_weight * std::log(energy / count) / options.power;
+            energy_share = options.energy_weight / (options.power * energy);
+        }
         // Soft minimum over the elements of their evenness; its derivatives are the elements' shares.
         if (has_evenness) {
             double lowest = std::numeric_limits<double>::infinity(), sum = 0.0;
@@ -162,7 +166,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
                     const Use& use = uses_[u];
                     const double* of = gradients_.data() + use.position;
                     for (int d = 0; d < Dim; ++d) {
-                        sum[d] += options.energy_weight * of[d];
+                        sum[d] += energy_share * of[d];
                         if (has_evenness) sum[d] += evenness_[use.element] * of[gradients_.size() / 2 + d];
                     }
                 }
@@ -334,11 +338,19 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             const double chi_slope = chi / root;
             const double power = Dim == 2 ? 1.0 / chi : 1.0 / std::cbrt(chi * chi);
             const double shape = norm * power / Dim, volume = 0.5 * (d * d + 1.0) / chi;
-            energy += (1.0 - options.theta) * shape + options.theta * volume;
+            const double term = (1.0 - options.theta) * shape + options.theta * volume;
+            double factor = share;
+            if (options.power > 1.0) {
+                const double ratio = term / options.reference, raised = std::pow(ratio, options.power);
+                energy += raised;
+                factor *= options.power * raised / term;
+            } else {
+                energy += term;
+            }
             const double by_d = -(1.0 - options.theta) * shape * (2.0 / Dim) / chi * chi_slope +
                                 options.theta * (d / chi - volume / chi * chi_slope);
             const Square<Dim> by_t = (2.0 * (1.0 - options.theta) * power / Dim) * t + by_d * c;
-            energy_force.template middleRows<Dim>(q * Dim).noalias() = share * inverse.transpose() * by_t;
+            energy_force.template middleRows<Dim>(q * Dim).noalias() = factor * inverse.transpose() * by_t;
             cofactor.template middleRows<Dim>(q * Dim).noalias() = inverse.transpose() * c;
             determinant[q] = d;
             least = std::min(least, d);

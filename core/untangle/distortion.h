@@ -29,6 +29,10 @@ struct DistortionOptions {
     double energy_weight = 1.0;  ///< of the sum of the elements' energies
     double least_weight = 1.0;   ///< of the least evenness (soft minimum over the elements), if sharpness > 0
     double mean_weight = 0.0;    ///< of the sum of the elements' evenness, if sharpness > 0
+    /// Above 1: instead of the energies' sum, the logarithm of the mean of this power of what is averaged in them, over
+    /// the power: a smooth stand-in for the logarithm of the largest. Not together with the evenness.
+    double power = 1.0;
+    double reference = 1.0;  ///< value that is divided by before taking the power, so that nothing overflows
 };
 
 /// A part of a mesh whose free nodes are moved while everything else stays.

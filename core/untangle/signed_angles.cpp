@@ -1,5 +1,7 @@
 #include "core/untangle/signed_angles.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
@@ -41,18 +43,43 @@ class SignedAngleUntangler {
           sign_(orientation_sign(find_orientation(mesh), mesh)),
           bounds_(*topology_.uniform_type()),
           face_nodes_(topology_.order(), topology_.order() > 3 ? FaceRule::blend : FaceRule::mean),
+          kept_(options.nodes, topology_),
           edge_nodes_(find_interior_edge_nodes(topology_)),
-          x_(mesh.coordinates()) {}
+          x_(mesh.coordinates()) {
+        std::erase_if(edge_nodes_, [this](const EdgeNode& edge_node) { return kept_.is_kept(edge_node.node); });
+    }
 
     UntangleResult run() {
         tell(event::Started{&mesh_});
         UntangleResult result;
+        Coordinates last = x_;  // after the last whole pass
+        try {
+            make_passes(result, last);
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result.reason = StopReason::cancelled;
+            if (observer_) tell(placed_nodes(event::Placement::put_back, x_, last));
+            x_ = last;
+        }
+        tell(event::Finished{result.reason, result.passes});
+        result.coordinates = std::move(x_);
+        return result;
+    }
+
+  private:
+    template <class Event>
+    void tell(Event&& event) {
+        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
+    }
+
+    void make_passes(UntangleResult& result, Coordinates& last) {
+        QualityReport quality = assess_quality(mesh_, {}, context_);
         result.reason = StopReason::pass_limit;
+        // A valid mesh is not changed; see improve().
+        if (quality.summary.invalid + quality.summary.undecided == 0) result.reason = StopReason::untangled;
         const bool needs_quality = observer_ != nullptr || options_.reject_worse_pass;
-        QualityReport quality;
-        if (options_.reject_worse_pass) quality = assess_quality(mesh_, {}, context_);
         while (result.passes < options_.max_passes && result.reason == StopReason::pass_limit) {
-            const Coordinates before = x_;
+            const Coordinates before = last = x_;
             const int pass = result.passes + 1;
             tell(event::PassBegan{pass});
             move_edge_nodes(pass);
@@ -74,15 +101,6 @@ class SignedAngleUntangler {
             result.passes = pass;
             if (change <= options_.convergence) result.reason = StopReason::converged;
         }
-        tell(event::Finished{result.reason, result.passes});
-        result.coordinates = std::move(x_);
-        return result;
-    }
-
-  private:
-    template <class Event>
-    void tell(Event&& event) {
-        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
     void move_edge_nodes(int pass) {
@@ -134,7 +152,7 @@ class SignedAngleUntangler {
     void move_face_nodes() {
         if (face_nodes_.local_nodes().empty()) return;
         for (Index triangle = 0; triangle < topology_.element_count(); ++triangle)
-            face_nodes_.place(topology_.element_nodes(triangle), x_);
+            face_nodes_.place(topology_.element_nodes(triangle), x_, &kept_);
         if (!observer_) return;
         event::FaceNodesMoved moved;
         for (Index triangle = 0; triangle < topology_.element_count(); ++triangle)
@@ -153,6 +171,7 @@ class SignedAngleUntangler {
     double sign_;
     JacobianBounds bounds_;
     FaceNodes face_nodes_;
+    const KeptNodes kept_;
     std::vector<EdgeNode> edge_nodes_;
     std::vector<std::vector<std::size_t>> batches_;
     Coordinates x_;

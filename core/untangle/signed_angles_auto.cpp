@@ -44,7 +44,8 @@ class AutomaticUntangler {
           context_(context),
           sign_(orientation_sign(find_orientation(mesh), mesh)),
           face_nodes_(topology_.order(), FaceRule::blend),
-          edges_(group_by_edge(find_interior_edge_nodes(topology_))),
+          kept_(options.nodes, topology_),
+          edges_(group_by_edge(movable_edge_nodes())),
           colours_(colour_edges(edges_, topology_.element_count())),
           tried_(edges_.size(), 0),
           changed_(static_cast<std::size_t>(topology_.element_count()), 0),
@@ -57,7 +58,33 @@ class AutomaticUntangler {
         // A patch with a tangled triangle is judged by its soft minimum, so the mesh's minimum may fall on the way to
         // validity: the best state of all passes is returned, and the last pass ends with it.
         UntangleResult result{x_, 0, StopReason::pass_limit};
+        try {
+            make_passes(result);
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result.reason = StopReason::cancelled;
+            if (observer_) tell(placed_nodes(event::Placement::put_back, x_, result.coordinates));
+        }
+        tell(event::Finished{result.reason, result.passes});
+        return result;
+    }
+
+  private:
+    template <class Event>
+    void tell(Event&& event) {
+        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
+    }
+
+    std::vector<EdgeNode> movable_edge_nodes() const {
+        std::vector<EdgeNode> nodes = find_interior_edge_nodes(topology_);
+        std::erase_if(nodes, [this](const EdgeNode& edge_node) { return kept_.is_kept(edge_node.node); });
+        return nodes;
+    }
+
+    void make_passes(UntangleResult& result) {
         QualitySummary best = assess_quality(mesh_, {}, context_).summary;
+        // A valid mesh is not changed; see improve().
+        if (best.invalid + best.undecided == 0) result.reason = StopReason::untangled;
         for (int pass = 1; pass <= options_.max_passes && result.reason == StopReason::pass_limit; ++pass) {
             const Coordinates before = x_;
             tell(event::PassBegan{pass});
@@ -75,14 +102,6 @@ class AutomaticUntangler {
                                   &x_});
             result.passes = pass;
         }
-        tell(event::Finished{result.reason, result.passes});
-        return result;
-    }
-
-  private:
-    template <class Event>
-    void tell(Event&& event) {
-        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
     /// One pass over the edges, colour by colour. Returns whether one was moved.
@@ -190,7 +209,7 @@ class AutomaticUntangler {
             total.objective_before += minimum.objective_before;
             total.objective_after += minimum.objective_after;
         }
-        for (const Index triangle : edge[0].triangles) face_nodes_.place(topology_.element_nodes(triangle), x_);
+        for (const Index triangle : edge[0].triangles) face_nodes_.place(topology_.element_nodes(triangle), x_, &kept_);
         return total;
     }
 
@@ -240,6 +259,7 @@ class AutomaticUntangler {
     const TaskContext& context_;
     double sign_;
     FaceNodes face_nodes_;
+    const KeptNodes kept_;
     std::vector<EdgeNodes> edges_;
     std::vector<std::vector<std::size_t>> colours_;
     /// Number of the colour step (clock_) at which an edge was last tried and a triangle last changed; 0 = never.
