@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     add_warp(app, invocation);
     add_untangle(app, invocation);
     add_convert(app, invocation);
+    add_compare(app, invocation);
     add_render(app, invocation);
     add_replay(app, invocation);
     add_animate(app, invocation);

@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/mesh/conformity.h"
 #include "core/optimize/lbfgs.h"
 #include "core/untangle/constrained_objective.h"
 #include "core/untangle/patch_state.h"
@@ -493,6 +494,7 @@ GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOpt
                                      UntangleObserver* observer, const TaskContext& context) {
     check(options);
     require_assessable(mesh);
+    require_conforming(mesh, context);
     return Untangler(mesh, options, observer, context).run();
 }
 
