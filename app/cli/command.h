@@ -42,6 +42,8 @@ struct Invocation {
 /// Input mesh.
 struct InputOptions {
     std::filesystem::path file;
+    /// Nodes closer than that are merged, relative to the mesh's size. Not given: only where no elements touch.
+    std::optional<double> merge_tolerance;
 };
 
 /// Output file and its format.
@@ -88,6 +90,7 @@ void add_warp(CLI::App& app, Invocation& invocation);
 void add_untangle(CLI::App& app, Invocation& invocation);
 void add_improve(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
+void add_compare(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_replay(CLI::App& app, Invocation& invocation);
 void add_animate(CLI::App& app, Invocation& invocation);

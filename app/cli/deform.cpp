@@ -3,6 +3,7 @@
 #include "app/cli/command.h"
 #include "app/cli/output.h"
 #include "core/io/deformation_file.h"
+#include "core/mesh/conformity.h"
 
 namespace curvewright::cli {
 namespace {
@@ -17,6 +18,7 @@ int run(const Options& options, Work& work) {
     check_output(options.output);
     const ReadResult read = read_input(options.input, work);
     const CurvedMesh& input = read.mesh;
+    require_conforming(input, work.context());
     const Deformation deformation = read_deformation(options.deformation, work.context());
     const CurvedMesh mesh = input.with_coordinates(apply_deformation(input, deformation));
     work.end_phase("deform");

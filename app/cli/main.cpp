@@ -52,6 +52,7 @@ int main(int argc, char** argv) {
     add_untangle(app, invocation);
     add_improve(app, invocation);
     add_convert(app, invocation);
+    add_compare(app, invocation);
     add_render(app, invocation);
     add_replay(app, invocation);
     add_animate(app, invocation);

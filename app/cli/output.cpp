@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/io/matched_mesh.h"
 
 namespace curvewright::cli {
 
@@ -53,7 +54,7 @@ std::string summary_line(const QualitySummary& summary) {
 
 ReadResult read_input(const InputOptions& input, Work& work) {
     work.set_input(input.file);
-    ReadResult result = read_mesh(input.file, work.context());
+    ReadResult result = read_matched_mesh(input.file, input.merge_tolerance, work.context());
     work.notes(input.file.string(), result.notes);
     work.end_phase("read");
     return result;
@@ -129,11 +130,13 @@ void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std
 }
 
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                      Work& work) {
+                      Work& work, const Json& more) {
     const auto quality = certify_for(output, mesh, work);
     write_output(output, mesh, fields, quality ? &*quality : nullptr, nullptr, work);
+    Json json = {{"mesh", mesh_json(output.file, mesh)}};
+    json.update(more);
     if (work.is_json())
-        work.print({{"mesh", mesh_json(output.file, mesh)}});
+        work.print(std::move(json));
     else
         fmt::print("{}: {}\n", output.file.string(), mesh_line(mesh));
 }

@@ -22,7 +22,8 @@ std::string mesh_line(const CurvedMesh& mesh);
 /// "min −0.222, mean 0.634, max 1.000; 28 valid, 2 invalid, 0 undecided" in ASCII.
 std::string summary_line(const QualitySummary& summary);
 
-/// Reads a mesh and notes what its reader has to say. Timed as "read".
+/// Reads a mesh, merges its coincident nodes as asked (read_matched_mesh) and notes what there is to say of it. Timed
+/// as "read".
 ReadResult read_input(const InputOptions& input, Work& work);
 /// assess_quality, timed as "certify".
 QualityReport certify(const CurvedMesh& mesh, Work& work, const QualityOptions& options = {});
@@ -54,8 +55,9 @@ void check_output(const OutputOptions& output);
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
                   const QualityReport* quality, const Coordinates* reference, Work& work);
 /// What commands do whose result is a mesh and nothing else: certify where it belongs in the file, write, say so.
+/// more: what --json has besides the mesh; an object.
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                      Work& work);
+                      Work& work, const Json& more = Json::object());
 /// Notes that the mesh is numbered clockwise or mixed, if it is.
 void note_orientation(const QualityReport& report, Work& work);
 /// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.

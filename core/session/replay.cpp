@@ -6,7 +6,8 @@
 
 #include "core/base/error.h"
 #include "core/io/deformation_file.h"
-#include "core/io/mesh_io.h"
+#include "core/io/matched_mesh.h"
+#include "core/mesh/conformity.h"
 #include "core/quality/quality.h"
 #include "core/untangle/unmended_text.h"
 
@@ -138,7 +139,7 @@ std::filesystem::path Replay::resolve(const std::string& file) const {
 
 void Replay::perform(const Action& action, const TaskContext& context) {
     if (const auto* open = std::get_if<OpenAction>(&action)) {
-        ReadResult read = read_mesh(resolve(open->mesh), context);
+        ReadResult read = read_matched_mesh(resolve(open->mesh), {}, context);
         history_.assign(1, std::move(read.mesh));
         fields_ = std::move(read.fields);
         notes_ = std::move(read.notes);

@@ -10,6 +10,7 @@
 
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
+#include "core/mesh/conformity.h"
 #include "core/untangle/improvement.h"
 #include "core/untangle/patch_work.h"
 #include "core/untangle/standing.h"
@@ -256,6 +257,7 @@ GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOpt
                                      UntangleObserver* observer, const TaskContext& context) {
     check(options);
     require_assessable(mesh);
+    require_conforming(mesh, context);
     return Untangler(mesh, options, observer, context).run();
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/mesh/conformity.h"
 #include "core/quality/quality.h"
 #include "core/untangle/improvement.h"
 #include "core/untangle/patch_work.h"
@@ -76,6 +77,7 @@ ImproveResult improve(const CurvedMesh& mesh, const ImproveOptions& options, Unt
                       const TaskContext& context) {
     check(options);
     require_assessable(mesh);
+    require_conforming(mesh, context);
     PatchWork work(mesh, options.boundary, options.nodes, observer, context);
     ImproveResult result;
     work.tell(untangle_event::Started{&mesh});

@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/mesh/conformity.h"
 #include "core/quality/quality.h"
 #include "core/untangle/face_nodes.h"
 #include "core/untangle/signed_angle_patch.h"
@@ -182,6 +183,7 @@ class SignedAngleUntangler {
 UntangleResult untangle_signed_angles(const CurvedMesh& mesh, const SignedAngleOptions& options,
                                       UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
+    require_conforming(mesh, context);
     if (options.beta_choice == BetaChoice::automatic)
         return untangle_with_chosen_beta(mesh, options, observer, context);
     return SignedAngleUntangler(mesh, options, observer, context).run();

@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/basis/reference_element.h"
+#include "core/mesh/conformity.h"
 #include "core/optimize/bfgs.h"
 #include "core/quality/jacobian_bounds.h"
 #include "core/quality/quality.h"
@@ -348,6 +349,7 @@ UnsignedAngleOptions UnsignedAngleOptions::literal() {
 UntangleResult untangle_unsigned_angles(const CurvedMesh& mesh, const UnsignedAngleOptions& options,
                                         UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
+    require_conforming(mesh, context);
     return UnsignedAngleUntangler(mesh, options, observer, context).run();
 }
 

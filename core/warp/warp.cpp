@@ -12,6 +12,7 @@
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/boundary/boundary_parts.h"
+#include "core/mesh/conformity.h"
 #include "core/warp/elasticity.h"
 #include "core/warp/equations.h"
 
@@ -240,6 +241,7 @@ void Warper::Data::set_up(const TaskContext& context) {
 }
 
 Warper::Warper(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
+    require_conforming(mesh, context);
     auto data = std::make_unique<Data>(mesh, options);
     data->set_up(context);
     data_ = std::move(data);

@@ -5,6 +5,8 @@
 #include "core/base/sha256.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
+#include "core/io/matched_mesh.h"
+#include "core/mesh/conformity.h"
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/operation_steps.h"
 #include "ui/jobs/window_provenance.h"
@@ -16,7 +18,7 @@ MeshJobs::MeshJobs(MeshDocument& document, QObject* parent) : QObject(parent), d
 bool MeshJobs::open(OpenRequest request) {
     const QString name = QFileInfo(request.mesh_path).fileName();
     return runner_.start(tr("Opening %1").arg(name), [this, request = std::move(request)](const TaskContext& context) {
-        ReadResult read = read_mesh(to_path(request.mesh_path), context);
+        ReadResult read = read_matched_mesh(to_path(request.mesh_path), {}, context);
         OpenedMesh opened;
         opened.file_path = QFileInfo(request.mesh_path).absoluteFilePath();
         for (const std::string& text : read.notes) opened.notes << QString::fromStdString(text);
@@ -33,6 +35,7 @@ bool MeshJobs::open(OpenRequest request) {
             loaded = LoadedDeformation{deformation, QFileInfo(request.deformation_path).absoluteFilePath()};
             if (request.apply_deformation) {
                 const CurvedMesh& mesh = *opened.state.mesh;
+                require_conforming(mesh, context);
                 deformed =
                     make_state(mesh.with_coordinates(apply_deformation(mesh, *deformation)), context, &opened.state);
                 deformed->applied_deformations << loaded->file_path;
