@@ -9,6 +9,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
+#include "core/mesh/renumbering.h"
 #include "core/optimize/lbfgs.h"
 #include "core/untangle/constrained_objective.h"
 #include "core/untangle/patch_state.h"
@@ -74,7 +75,7 @@ class Untangler {
         quality_options_.orientation_sign = report.orientation_sign;
         state_.qualities = report.elements;
         impossible_.resize(state_.qualities.size());
-        for (const Index element : elements_where([](const auto& quality) { return !is_valid(quality); }))
+        for (const Index element : elements_where(is_in_need))
             impossible_[element] = find_impossibility(
                 mesh_, element, report.orientation_sign, node_elements_, [this](Index node) { return may_move(node); },
                 [this](Index other) { return impossible_[other].has_value(); });
@@ -98,7 +99,7 @@ class Untangler {
     }
     /// Not valid, and not proved to be impossible.
     std::vector<Index> mendable() const {
-        std::vector<Index> result = elements_where([](const auto& quality) { return !is_valid(quality); });
+        std::vector<Index> result = elements_where(is_in_need);
         std::erase_if(result, [this](Index element) { return impossible_[element].has_value(); });
         return result;
     }
@@ -135,7 +136,9 @@ class Untangler {
         std::vector<FreePatch> tried;
         for (int layers = options_.layers; !seeds.empty() && layers <= options_.max_layers; layers *= 2) {
             std::vector<FreePatch> patches =
-                make_patches(topology_, node_elements_, seeds, layers, [this](Index node) { return may_move(node); });
+                make_patches(
+                topology_, node_elements_, seeds, layers, [this](Index node) { return may_move(node); },
+                [this](Index element) { return state_.qualities[element].validity == Validity::not_assessed; });
             // A patch that could not grow would do the same again.
             std::erase_if(patches, [&](const FreePatch& patch) {
                 return std::any_of(tried.begin(), tried.end(),
@@ -412,7 +415,7 @@ class Untangler {
     void list_unmended() {
         for (Index element = 0; element < topology_.element_count(); ++element) {
             const ElementQuality& quality = state_.qualities[element];
-            if (is_valid(quality)) continue;
+            if (!is_in_need(quality)) continue;
             if (impossible_[element]) {
                 result_.unmended.push_back({element, impossible_[element]->reason, true, impossible_[element]->bound});
                 continue;
@@ -493,7 +496,9 @@ GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOpt
                                      UntangleObserver* observer, const TaskContext& context) {
     check(options);
     require_assessable(mesh);
-    return Untangler(mesh, options, observer, context).run();
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
+    return Untangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

@@ -7,6 +7,7 @@
 
 #include "core/mesh/curved_mesh.h"
 #include "core/mesh/node_elements.h"
+#include "core/quality/orientation_signs.h"
 
 namespace curvewright {
 
@@ -32,9 +33,10 @@ struct Impossibility {
 /// no solution, the element is what cannot be had. Positions farther away than 1000 extents of the element are not
 /// considered.
 ///
-/// sign: the orientation's, see JacobianBounds. is_given_up: elements that need not be valid. None if no proof was
+/// signs: the orientation's. is_given_up: elements that need not be valid. None if no proof was
 /// found.
-std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element, double sign,
+std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element,
+                                                const OrientationSigns& signs,
                                                 const NodeElements& node_elements,
                                                 const std::function<bool(Index node)>& may_move,
                                                 const std::function<bool(Index element)>& is_given_up = {});

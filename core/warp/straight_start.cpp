@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/basis/lagrange.h"
+#include "core/mesh/renumbering.h"
 
 namespace curvewright {
 namespace {
@@ -33,7 +34,7 @@ CurvedMesh straight_sided(const CurvedMesh& mesh) {
 }  // namespace
 
 WarpResult warp_from_straight(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
-    return warp(straight_sided(mesh), mesh.coordinates(), options, context);
+    return warp(straight_sided(NumberedAlike(mesh).mesh()), mesh.coordinates(), options, context);
 }
 
 }  // namespace curvewright
