@@ -40,6 +40,7 @@ struct Invocation {
 /// Input mesh.
 struct InputOptions {
     std::filesystem::path file;
+    bool reorients = false;  ///< --reorient
 };
 
 /// Output file and its format.
@@ -56,7 +57,7 @@ CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& 
 /// Adds -o/--output (or a positional, for convert), --format and --binary.
 void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
 
-/// Adds the input mesh, a required positional.
+/// Adds the input mesh, a required positional, and --reorient.
 void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder = "IN");
 /// Adds --deformation, required.
 void add_deformation_option(CLI::App& command, std::filesystem::path& file);

@@ -151,7 +151,7 @@ int run(const WarpArguments& arguments, Work& work) {
     const CurvedMesh& input = read.mesh;
     const Deformation deformation = read_deformation(arguments.deformation, work.context());
     const Assessment before = assess(input, work);
-    if (before.report) note_orientation(*before.report, work);
+    if (before.report) note_assessment(input.topology(), *before.report, work);
     const Outcome outcome = move(arguments, input, deformation, before, work);
     write_output(arguments.output, outcome.mesh, read.fields,
                  outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), work);
