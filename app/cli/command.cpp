@@ -46,6 +46,8 @@ void add_input_option(CLI::App& command, InputOptions& input, const std::string&
                     "own nodes)")
         ->check(CLI::Range(0.0, 0.5))
         ->type_name("T");
+    command.add_flag("--reorient", input.reorients,
+                     "Renumber elements that run against their neighbours, and parts that are clockwise, first");
 }
 
 int run_command(const std::function<int(Work&)>& run, const Invocation& invocation, const TaskContext& context) {

@@ -44,6 +44,7 @@ struct InputOptions {
     std::filesystem::path file;
     /// Nodes closer than that are merged, relative to the mesh's size. Not given: only where no elements touch.
     std::optional<double> merge_tolerance;
+    bool reorients = false;  ///< --reorient
 };
 
 /// Output file and its format.
@@ -60,7 +61,7 @@ CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& 
 /// Adds -o/--output (or a positional, for convert), --format and --binary.
 void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
 
-/// Adds the input mesh, a required positional.
+/// Adds the input mesh, a required positional, and --reorient.
 void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder = "IN");
 /// Adds --deformation, required.
 void add_deformation_option(CLI::App& command, std::filesystem::path& file);

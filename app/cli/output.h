@@ -12,7 +12,7 @@ namespace curvewright::cli {
 
 /// "mesh": file, dimension, order, elements, nodes, interior_nodes.
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh);
-/// "scaled_jacobian": min, mean, max, valid, invalid, undecided.
+/// "scaled_jacobian": min, mean, max (null if nothing was assessed), valid, invalid, undecided, not_assessed, reversed.
 Json summary_json(const QualitySummary& summary);
 /// "worst": at most 10 of element (tag), scaled_jacobian, center.
 Json worst_json(const CurvedMesh& mesh, const QualityReport& report);
@@ -58,8 +58,10 @@ void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std
 /// more: what --json has besides the mesh; an object.
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
                       Work& work, const Json& more = Json::object());
-/// Notes that the mesh is numbered clockwise or mixed, if it is.
-void note_orientation(const QualityReport& report, Work& work);
+/// Notes how many elements are reversed and what is one-sided, if there are such.
+void note_winding(const MeshTopology& topology, Work& work);
+/// note_winding; notes, too, that the mesh or parts of it are numbered clockwise and what was not assessed.
+void note_assessment(const MeshTopology& topology, const QualityReport& report, Work& work);
 /// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.
 int validity_status(const QualitySummary& summary);
 

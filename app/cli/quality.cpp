@@ -43,7 +43,7 @@ int note_least(const Options& options, const QualityReport& report, Work& work) 
 int run(const Options& options, Work& work) {
     const CurvedMesh mesh = read_input(options.input, work).mesh;
     const QualityReport report = certify(mesh, work, options.quality);
-    note_orientation(report, work);
+    note_assessment(mesh.topology(), report, work);
     if (!options.csv.empty()) {
         write_text_file(options.csv, to_csv(mesh, report));
         work.end_phase("write");

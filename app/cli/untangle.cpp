@@ -145,7 +145,7 @@ int run(const Options& options, Work& work) {
     const ReadResult read = read_input(options.input, work);
     const CurvedMesh& input = read.mesh;
     const QualityReport before = certify(input, work);
-    note_orientation(before, work);
+    note_assessment(input.topology(), before, work);
     std::optional<TraceFile> trace;
     ConvergenceLog log;
     ObserverFan observers;

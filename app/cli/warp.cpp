@@ -152,7 +152,7 @@ int run(const WarpArguments& arguments, Work& work) {
     const CurvedMesh& input = read.mesh;
     const Deformation deformation = read_deformation(arguments.deformation, work.context());
     const Assessment before = assess(input, work);
-    if (before.report) note_orientation(*before.report, work);
+    if (before.report) note_assessment(input.topology(), *before.report, work);
     const Outcome outcome = move(arguments, input, deformation, before, work);
     const bool is_cancelled = outcome.increments && outcome.increments->is_cancelled;
     if (is_cancelled && outcome.increments->accepted == 0) {

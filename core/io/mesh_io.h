@@ -40,7 +40,7 @@ struct WriteOptions {
     std::optional<MeshFormat> format;
     /// VTU and VTK only: compressed binary instead of ASCII. (VTU is binary by default: 17 digits cost nothing there.)
     std::optional<bool> binary;
-    /// VTU and VTK: cell arrays ScaledJacobian and Validity (0 invalid, 1 valid, 2 undecided).
+    /// VTU and VTK: cell arrays ScaledJacobian and Validity (0 invalid, 1 valid, 2 undecided, 3 not assessed).
     const QualityReport* quality = nullptr;
     /// VTU and VTK: point array Displacement = coordinates - reference. Same size as the mesh's coordinates.
     const Coordinates* reference = nullptr;

@@ -97,11 +97,15 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
             groups->InsertNextValue(group == group_of_entity.end() ? 0 : group->second);
             if (quality == nullptr) continue;
             const bool is_element = dim == topology.dimension() && dim > 0;
-            jacobian->InsertNextValue(is_element ? quality->elements[element].scaled_jacobian : no_jacobian);
+            const bool is_assessed = is_element && quality->elements[element].validity != Validity::not_assessed;
+            jacobian->InsertNextValue(is_assessed ? quality->elements[element].scaled_jacobian : no_jacobian);
             int state = -1;
             if (is_element) {
                 const Validity proved = quality->elements[element++].validity;
-                state = proved == Validity::valid ? 1 : proved == Validity::invalid ? 0 : 2;
+                state = proved == Validity::valid          ? 1
+                        : proved == Validity::invalid    ? 0
+                        : proved == Validity::undecided ? 2
+                                                        : 3;
             }
             validity->InsertNextValue(state);
         }

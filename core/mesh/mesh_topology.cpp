@@ -134,6 +134,27 @@ void MeshTopology::number_elements() {
                 fmt::format("Element {} occurs twice; element tags must be unique.", element_tag(element).value));
 }
 
+/// Whether the elements on the two sides of a facet number its corners in opposite senses, as they should; none if the
+/// corners are not even in the same order around the facet.
+std::optional<bool> MeshTopology::are_numbered_alike(Facet a, Facet b) const {
+    const auto corners = [this](Facet facet, std::array<Index, 4>& of) {
+        const SubElement& its = reference_element(element_type(facet.element)).facets[facet.local];
+        const auto nodes = element_nodes(facet.element);
+        const int count = corner_count(its.type.shape);
+        for (int i = 0; i < count; ++i) of[i] = nodes[its.nodes[i]];
+        return count;
+    };
+    std::array<Index, 4> first{}, second{};
+    const int count = corners(a, first);
+    corners(b, second);
+    if (count == 1) return a.local != b.local;
+    const auto start = std::find(second.begin(), second.begin() + count, first[0]) - second.begin();
+    if (count == 2) return start != 0;
+    if (second[(start + count - 1) % count] == first[1]) return true;
+    if (second[(start + 1) % count] == first[1]) return false;
+    return std::nullopt;
+}
+
 std::vector<MeshTopology::FacetKey> MeshTopology::facet_keys() const {
     std::vector<FacetKey> keys;
     for (Index element = 0; element < element_count(); ++element) {
@@ -152,6 +173,7 @@ std::vector<MeshTopology::FacetKey> MeshTopology::facet_keys() const {
 }
 
 void MeshTopology::find_boundary(const std::vector<FacetKey>& keys) {
+    WindingFinder winding(element_count());
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
@@ -163,8 +185,12 @@ void MeshTopology::find_boundary(const std::vector<FacetKey>& keys) {
             for (std::size_t k = i + 1; k < end && meet; ++k) meet = sorted(facet_nodes(keys[k].facet)) == nodes;
         }
         for (std::size_t k = i; k < end && !meet; ++k) boundary_facets_.push_back(keys[k].facet);
+        if (meet && end == i + 2)
+            if (const auto are_alike = are_numbered_alike(keys[i].facet, keys[i + 1].facet))
+                winding.meet(keys[i].facet.element, keys[i + 1].facet.element, *are_alike);
         i = end;
     }
+    winding_ = winding.find();
     std::sort(boundary_facets_.begin(), boundary_facets_.end(), is_before);
 
     role_.assign(static_cast<std::size_t>(node_count()), Role::unused);

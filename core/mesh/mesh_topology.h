@@ -13,6 +13,7 @@
 #include "core/basis/element_type.h"
 #include "core/mesh/partitioning.h"
 #include "core/mesh/periodic.h"
+#include "core/mesh/winding.h"
 
 namespace curvewright {
 
@@ -119,6 +120,12 @@ class MeshTopology {
     /// The type that all elements share; none if the mesh mixes types or is empty.
     std::optional<ElementType> uniform_type() const { return uniform_type_; }
 
+    /// Whether the element is numbered against the majority of its part of the mesh, see Winding. Its facets and its J
+    /// have the other sign then, whatever the coordinates; nothing is wrong with it.
+    bool is_reversed(Index element) const { return winding_.reversed_count > 0 && winding_.is_reversed[element]; }
+    Index reversed_count() const { return winding_.reversed_count; }
+    const Winding& winding() const { return winding_; }
+
     /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the
     /// elements.
     const std::vector<Facet>& boundary_facets() const { return boundary_facets_; }
@@ -161,8 +168,10 @@ class MeshTopology {
     void check_nodes_and_blocks();
     void number_elements();
     std::vector<FacetKey> facet_keys() const;
+    /// The boundary, and how the elements that meet in the other facets are numbered against each other.
     void find_boundary(const std::vector<FacetKey>& keys);
     void find_interfaces(const std::vector<FacetKey>& keys);
+    std::optional<bool> are_numbered_alike(Facet a, Facet b) const;
 
     MeshData data_;
     std::unordered_map<NodeTag, Index> node_of_tag_;
@@ -172,6 +181,7 @@ class MeshTopology {
     std::optional<ElementType> uniform_type_;
     std::vector<Index> element_block_;     ///< per element: its block
     std::vector<Index> element_in_block_;  ///< per element: its position in the block
+    Winding winding_;
     std::vector<Facet> boundary_facets_;
     std::vector<Role> role_;
     std::vector<Index> boundary_nodes_, interior_nodes_;

@@ -14,6 +14,7 @@
 #include "core/basis/lagrange.h"
 #include "core/basis/node_ordering.h"
 #include "core/basis/reference_element.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/quality.h"
 
 namespace curvewright {
@@ -249,25 +250,30 @@ void compute_simplices(ElementType type, const MeshTopology& topology, const Coo
 
 std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
     require_assessable(mesh);
-    const CurvedMesh ideal_mesh = mesh.with_coordinates(ideal);
-    const MeshTopology& topology = mesh.topology();
+    // Numbered alike, so that not a bit depends on the numbering.
+    const CurvedMesh alike = numbered_alike(mesh), ideal_mesh = alike.with_coordinates(ideal);
+    const MeshTopology& topology = alike.topology();
     std::vector<double> worst(static_cast<std::size_t>(topology.element_count()));
     parallel_for(worst.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             const auto element = static_cast<Index>(i);
             const ElementType type = topology.element_type(element);
+            if (type.shape == Shape::pyramid) {
+                worst[i] = std::numeric_limits<double>::quiet_NaN();
+                continue;
+            }
             if (is_simplex(type.shape)) {
                 std::size_t last = i + 1;
                 while (last < end && topology.element_type(static_cast<Index>(last)) == type) ++last;
                 if (topology.dimension() == 2)
-                    compute_simplices<2>(type, topology, mesh.coordinates(), ideal, i, last, worst);
+                    compute_simplices<2>(type, topology, alike.coordinates(), ideal, i, last, worst);
                 else
-                    compute_simplices<3>(type, topology, mesh.coordinates(), ideal, i, last, worst);
+                    compute_simplices<3>(type, topology, alike.coordinates(), ideal, i, last, worst);
                 i = last - 1;
                 continue;
             }
             const SampleBasis& basis = sample_basis(type);
-            const Eigen::MatrixX3d x = mesh.element_coordinates(element), w = ideal_mesh.element_coordinates(element);
+            const Eigen::MatrixX3d x = alike.element_coordinates(element), w = ideal_mesh.element_coordinates(element);
             worst[i] = topology.dimension() == 2 ? worst_mean_ratio<2>(basis, x, w) : worst_mean_ratio<3>(basis, x, w);
         }
     });
@@ -276,10 +282,13 @@ std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& id
 
 ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
     const std::vector<double> worst = element_shapes(mesh, ideal, context);
-    ShapeSummary summary{worst.empty() ? 1.0 : std::numeric_limits<double>::infinity(), worst.empty() ? 1.0 : 0.0};
-    for (std::size_t i = 0; i < worst.size(); ++i) {
-        summary.min = std::min(summary.min, worst[i]);
-        summary.mean += worst[i] / static_cast<double>(worst.size());
+    const auto assessed = std::count_if(worst.begin(), worst.end(), [](double shape) { return !std::isnan(shape); });
+    if (assessed == 0) return {};
+    ShapeSummary summary{std::numeric_limits<double>::infinity(), 0.0};
+    for (const double shape : worst) {
+        if (std::isnan(shape)) continue;
+        summary.min = std::min(summary.min, shape);
+        summary.mean += shape / static_cast<double>(assessed);
     }
     return summary;
 }

@@ -109,8 +109,8 @@ namespace {
 template <int Dim>
 class PatchObjectiveOf final : public PatchObjective::Implementation {
   public:
-    PatchObjectiveOf(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal, double sign,
-                     FreePatch given) {
+    PatchObjectiveOf(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
+                     const OrientationSigns& signs, FreePatch given) {
         patch = std::move(given);
         dim = Dim;
         Eigen::RowVector3d low = Eigen::RowVector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -122,7 +122,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         center = 0.5 * (low + high);
         size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
         place_nodes(topology, x);
-        set_ideals(topology, ideal, sign);
+        set_ideals(topology, ideal, signs);
         collect_uses();
         least_.resize(elements_.size());
         values_.resize(elements_.size());
@@ -230,7 +230,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         gradients_.resize(2 * start_.size());
     }
 
-    void set_ideals(const MeshTopology& topology, const Coordinates& ideal, double sign) {
+    void set_ideals(const MeshTopology& topology, const Coordinates& ideal, const OrientationSigns& signs) {
         double volume = 0.0;
         for (std::size_t e = 0; e < elements_.size(); ++e) {
             Element& element = elements_[e];
@@ -248,7 +248,9 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             volume += lattice.measure * std::abs(sum) / static_cast<double>(samples);
         }
         volume /= static_cast<double>(std::max<std::size_t>(1, elements_.size()));
-        for (Element& element : elements_) {
+        for (std::size_t e = 0; e < elements_.size(); ++e) {
+            Element& element = elements_[e];
+            const double sign = signs.of_element(topology, patch.elements[e]);
             const RowMatrix& gradients = lattice_of(element.type).ideal_gradients;
             const bool is_simplicial = is_simplex(element.type.shape);
             const bool is_own = is_usable(element, sign);
@@ -415,7 +417,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
 }  // namespace
 
 PatchObjective::PatchObjective(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
-                               double orientation_sign, FreePatch patch) {
+                               const OrientationSigns& signs, FreePatch patch) {
     for (const Index element : patch.elements) {
         const ElementType type = topology.element_type(element);
         if (simplex_factors(type.shape).empty())
@@ -423,9 +425,9 @@ PatchObjective::PatchObjective(const MeshTopology& topology, const Coordinates& 
                               " is not measured; expected triangles, quadrilaterals, tetrahedra, hexahedra or prisms.");
     }
     if (topology.dimension() == 2)
-        implementation_ = std::make_unique<PatchObjectiveOf<2>>(topology, x, ideal, orientation_sign, std::move(patch));
+        implementation_ = std::make_unique<PatchObjectiveOf<2>>(topology, x, ideal, signs, std::move(patch));
     else
-        implementation_ = std::make_unique<PatchObjectiveOf<3>>(topology, x, ideal, orientation_sign, std::move(patch));
+        implementation_ = std::make_unique<PatchObjectiveOf<3>>(topology, x, ideal, signs, std::move(patch));
 }
 PatchObjective::~PatchObjective() = default;
 PatchObjective::PatchObjective(PatchObjective&&) noexcept = default;

@@ -9,6 +9,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/quality/orientation_signs.h"
 
 namespace curvewright {
 
@@ -47,10 +48,10 @@ class PatchObjective {
   public:
     /// x: positions, nodes × 3; read for the patch's elements only. ideal: nodes × 3; the ideal of an element is the
     /// straight-sided element on its corners there (multilinear, if it is no simplex), or, where that does not have
-    /// volume of the given sign everywhere, a regular element of the patch's mean volume. Triangles, quadrilaterals,
+    /// volume of the element's sign everywhere, a regular element of the patch's mean volume. Triangles, quadrilaterals,
     /// tetrahedra, hexahedra and prisms; throws Unsupported for others.
     PatchObjective(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
-                   double orientation_sign, FreePatch patch);
+                   const OrientationSigns& signs, FreePatch patch);
     ~PatchObjective();
     PatchObjective(PatchObjective&&) noexcept;
 

@@ -11,6 +11,7 @@
 #include "core/base/error.h"
 #include "core/base/stopwatch.h"
 #include "core/mesh/conformity.h"
+#include "core/mesh/renumbering.h"
 #include "core/untangle/improvement.h"
 #include "core/untangle/patch_work.h"
 #include "core/untangle/standing.h"
@@ -125,7 +126,7 @@ class Untangler {
     void work() {
         work_.assess();
         impossible_.resize(work_.state().qualities.size());
-        const std::vector<Index> damaged = work_.elements_where([](const auto& quality) { return !is_valid(quality); });
+        const std::vector<Index> damaged = work_.elements_where(is_in_need);
         if (damaged.empty()) return;  // a valid mesh is not changed; see improve()
         for (const Index element : damaged)
             impossible_[element] = find_impossibility(
@@ -153,7 +154,7 @@ class Untangler {
 
     /// Not valid, and not proved to be impossible.
     std::vector<Index> mendable() const {
-        std::vector<Index> result = work_.elements_where([](const auto& quality) { return !is_valid(quality); });
+        std::vector<Index> result = work_.elements_where(is_in_need);
         std::erase_if(result, [this](Index element) { return impossible_[element].has_value(); });
         return result;
     }
@@ -164,8 +165,12 @@ class Untangler {
         const std::size_t at_start = seeds.size();
         std::vector<FreePatch> tried;
         for (int layers = options_.layers; !seeds.empty() && layers <= options_.max_layers; layers *= 2) {
-            std::vector<FreePatch> patches = make_patches(work_.topology(), work_.node_elements(), seeds, layers,
-                                                          [this](Index node) { return work_.may_move(node); });
+            std::vector<FreePatch> patches = make_patches(
+                work_.topology(), work_.node_elements(), seeds, layers,
+                [this](Index node) { return work_.may_move(node); },
+                [this](Index element) {
+                    return work_.state().qualities[element].validity == Validity::not_assessed;
+                });
             // A patch that could not grow would do the same again.
             std::erase_if(patches, [&](const FreePatch& patch) {
                 return std::any_of(tried.begin(), tried.end(),
@@ -202,7 +207,7 @@ class Untangler {
     void list_not_valid() {
         for (Index element = 0; element < work_.topology().element_count(); ++element) {
             const ElementQuality& quality = work_.state().qualities[element];
-            if (is_valid(quality)) continue;
+            if (!is_in_need(quality)) continue;
             if (impossible_[element]) {
                 result_.unmended.push_back({element, impossible_[element]->reason, impossible_[element]->is_proved,
                                             impossible_[element]->bound});
@@ -258,7 +263,9 @@ GuaranteedResult untangle_guaranteed(const CurvedMesh& mesh, const GuaranteedOpt
     check(options);
     require_assessable(mesh);
     require_conforming(mesh, context);
-    return Untangler(mesh, options, observer, context).run();
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
+    return Untangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

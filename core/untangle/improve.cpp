@@ -7,6 +7,7 @@
 
 #include "core/base/error.h"
 #include "core/mesh/conformity.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/quality.h"
 #include "core/untangle/improvement.h"
 #include "core/untangle/patch_work.h"
@@ -78,9 +79,11 @@ ImproveResult improve(const CurvedMesh& mesh, const ImproveOptions& options, Unt
     check(options);
     require_assessable(mesh);
     require_conforming(mesh, context);
-    PatchWork work(mesh, options.boundary, options.nodes, observer, context);
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
+    PatchWork work(alike.mesh(), options.boundary, options.nodes, given.listener(), context);
     ImproveResult result;
-    work.tell(untangle_event::Started{&mesh});
+    work.tell(untangle_event::Started{&alike.mesh()});
     try {
         work.assess();
         require_valid(work.state().qualities);

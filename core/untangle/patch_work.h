@@ -31,7 +31,7 @@ class PatchWork {
     const BoundaryShape* boundary() const { return boundary_ ? &*boundary_ : nullptr; }
     MeshState& state() { return state_; }
     const MeshState& state() const { return state_; }
-    double orientation_sign() const { return *quality_options_.orientation_sign; }
+    const OrientationSigns& orientation_sign() const { return *quality_options_.orientation_sign; }
 
     /// Certifies all elements of the mesh as it was given.
     void assess();

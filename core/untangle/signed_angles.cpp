@@ -7,6 +7,7 @@
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 #include "core/mesh/conformity.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/quality.h"
 #include "core/untangle/face_nodes.h"
 #include "core/untangle/signed_angle_patch.h"
@@ -41,7 +42,7 @@ class SignedAngleUntangler {
           options_(options),
           observer_(observer),
           context_(context),
-          sign_(orientation_sign(find_orientation(mesh), mesh)),
+          signs_(orientation_signs(mesh)),
           bounds_(*topology_.uniform_type()),
           face_nodes_(topology_.order(), topology_.order() > 3 ? FaceRule::blend : FaceRule::mean),
           kept_(options.nodes, topology_),
@@ -125,7 +126,7 @@ class SignedAngleUntangler {
     }
 
     SignedAngleMinimum move(const EdgeNode& edge_node) {
-        const EdgeAngles angles(topology_, x_, edge_node, sign_);
+        const EdgeAngles angles(topology_, x_, edge_node, signs_);
         const SignedAngleMinimum minimum =
             minimise_signed_angles(angles, x_.row(edge_node.node).head<2>(), displacement_unit(angles, options_),
                                    options_.beta, options_, observer_, edge_node.node);
@@ -140,13 +141,13 @@ class SignedAngleUntangler {
         event::PatchEnded ended;
         ended.nodes = {edge_node.node};
         ended.beta = options_.beta;
-        ended.min_scaled_jacobian_before = assess_patch(topology_, x_, edge_node, sign_, bounds_).minimum;
+        ended.min_scaled_jacobian_before = assess_patch(topology_, x_, edge_node, signs_, bounds_).minimum;
         const SignedAngleMinimum minimum = move(edge_node);
         ended.iterations = minimum.iterations;
         ended.objective_before = minimum.objective_before;
         ended.objective_after = minimum.objective_after;
         ended.positions = {position_of(x_, edge_node.node)};
-        ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge_node, sign_, bounds_).minimum;
+        ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge_node, signs_, bounds_).minimum;
         tell(std::move(ended));
     }
 
@@ -169,7 +170,7 @@ class SignedAngleUntangler {
     const SignedAngleOptions& options_;
     UntangleObserver* observer_;
     const TaskContext& context_;
-    double sign_;
+    OrientationSigns signs_;
     JacobianBounds bounds_;
     FaceNodes face_nodes_;
     const KeptNodes kept_;
@@ -184,9 +185,11 @@ UntangleResult untangle_signed_angles(const CurvedMesh& mesh, const SignedAngleO
                                       UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
     require_conforming(mesh, context);
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
     if (options.beta_choice == BetaChoice::automatic)
-        return untangle_with_chosen_beta(mesh, options, observer, context);
-    return SignedAngleUntangler(mesh, options, observer, context).run();
+        return untangle_with_chosen_beta(alike.mesh(), options, given.listener(), context);
+    return SignedAngleUntangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

@@ -42,7 +42,7 @@ class AutomaticUntangler {
           options_(options),
           observer_(observer),
           context_(context),
-          sign_(orientation_sign(find_orientation(mesh), mesh)),
+          signs_(orientation_signs(mesh)),
           face_nodes_(topology_.order(), FaceRule::blend),
           kept_(options.nodes, topology_),
           edges_(group_by_edge(movable_edge_nodes())),
@@ -151,7 +151,7 @@ class AutomaticUntangler {
     /// Moves an edge by the best of the trials, if that gains something. Reads and writes nodes of its two triangles
     /// only, so edges of one colour do not meet.
     bool improve(const EdgeNodes& edge, JacobianBounds& bounds) {
-        const PatchQuality start = assess_patch(topology_, x_, edge[0], sign_, bounds);
+        const PatchQuality start = assess_patch(topology_, x_, edge[0], signs_, bounds);
         if (start.minimum >= options_.target) return false;
         const std::vector<Index> nodes = nodes_of(edge);
         Eigen::MatrixX2d start_positions(static_cast<Eigen::Index>(nodes.size()), 2);
@@ -166,7 +166,7 @@ class AutomaticUntangler {
         double best_merit = merit(start, start) + least_gain;
         const auto try_out = [&](const Trial& trial) {
             move(edge, trial, nullptr);
-            const PatchQuality quality = assess_patch(topology_, x_, edge[0], sign_, bounds);
+            const PatchQuality quality = assess_patch(topology_, x_, edge[0], signs_, bounds);
             restore();
             const bool is_refused =
                 quality.not_valid > start.not_valid || (quality.not_valid == 0 && quality.minimum < start.minimum);
@@ -200,7 +200,7 @@ class AutomaticUntangler {
         if (trial.straightens) straighten(edge, observer);
         SignedAngleMinimum total;
         for (const EdgeNode& node : edge) {
-            const EdgeAngles angles(topology_, x_, node, sign_);
+            const EdgeAngles angles(topology_, x_, node, signs_);
             const SignedAngleMinimum minimum =
                 minimise_signed_angles(angles, x_.row(node.node).head<2>(), displacement_unit(angles, options_),
                                        trial.beta(), options_, observer, node.node);
@@ -246,7 +246,7 @@ class AutomaticUntangler {
             ended.iterations = minimum.iterations;
             ended.objective_before = minimum.objective_before;
             ended.objective_after = minimum.objective_after;
-            ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge[0], sign_, bounds).minimum;
+            ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge[0], signs_, bounds).minimum;
         }
         ended.positions = positions();
         tell(std::move(ended));
@@ -257,7 +257,7 @@ class AutomaticUntangler {
     SignedAngleOptions options_;
     UntangleObserver* observer_;
     const TaskContext& context_;
-    double sign_;
+    OrientationSigns signs_;
     FaceNodes face_nodes_;
     const KeptNodes kept_;
     std::vector<EdgeNodes> edges_;

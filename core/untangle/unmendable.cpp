@@ -106,13 +106,14 @@ struct Judged {
     double unit, sign, scale = 0.0, rounding = 0.0;
     Eigen::VectorXd now;
 
-    Judged(const CurvedMesh& mesh, Index element, double sign_of_mesh, const Eigen::RowVector3d& center, double extent)
+    Judged(const CurvedMesh& mesh, Index element, const OrientationSigns& signs, const Eigen::RowVector3d& center,
+           double extent)
         : samples(mesh.topology().element_type(element)),
           nodes(mesh.topology().element_nodes(element)),
           given(mesh.element_coordinates(element)),
           x((given.rowwise() - center) / extent),
           unit(extent),
-          sign(sign_of_mesh) {
+          sign(signs.of_element(mesh.topology(), element)) {
         now = samples.jacobians(x, sign);
         scale = now.cwiseAbs().maxCoeff();
         if (!(scale > 0.0)) return;
@@ -311,8 +312,8 @@ bool is_without_solution(const Program& program, const CurvedMesh& mesh, double 
 
 }  // namespace
 
-std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element, double sign,
-                                                const NodeElements& node_elements,
+std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element,
+                                                const OrientationSigns& signs, const NodeElements& node_elements,
                                                 const std::function<bool(Index node)>& may_move,
                                                 const std::function<bool(Index element)>& is_given_up) {
     const MeshTopology& topology = mesh.topology();
@@ -320,7 +321,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
     const Eigen::RowVector3d center = x.colwise().mean();
     const double extent = (x.rowwise() - center).cwiseAbs().maxCoeff();
     if (!is_simplex(topology.element_type(element).shape) || !(extent > 0.0)) return std::nullopt;
-    const Judged judged(mesh, element, sign, center, extent);
+    const Judged judged(mesh, element, signs, center, extent);
     if (!(judged.scale > 0.0)) return std::nullopt;
     const auto tag = [&](int n) { return topology.node_tag(judged.nodes[static_cast<std::size_t>(n)]).value; };
     const std::vector<int> movable = judged.movable(-1, may_move);
@@ -368,7 +369,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
                 const auto other_corner = std::find(nodes.begin(), last, from),
                            other_end = std::find(nodes.begin(), last, to);
                 if (other_corner == last || other_end == last) continue;
-                const Judged neighbour(mesh, other, sign, center, extent);
+                const Judged neighbour(mesh, other, signs, center, extent);
                 if (const auto its = tangent_form(neighbour, static_cast<int>(other_corner - nodes.begin()),
                                                   static_cast<int>(other_end - nodes.begin()), may_move))
                     forms.push_back(*its);
@@ -398,7 +399,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
         Program others;
         for (const Index other : node_elements.of(node)) {
             if (other == element || (is_given_up && is_given_up(other))) continue;
-            const Judged neighbour(mesh, other, sign, center, extent);
+            const Judged neighbour(mesh, other, signs, center, extent);
             if (neighbour.scale > 0.0) others.add(neighbour, node, may_move);
         }
         if (others.values.empty() || others.bound() <= 0.0) continue;

@@ -7,6 +7,7 @@
 
 #include "core/mesh/curved_mesh.h"
 #include "core/mesh/node_elements.h"
+#include "core/quality/orientation_signs.h"
 
 namespace curvewright {
 
@@ -38,9 +39,10 @@ struct Impossibility {
 /// considered; the result is a proof if the mesh has no place that far away. (If all of the boundary stays, every node
 /// of a valid mesh is in the hull of the boundary, since a point outside has winding number 0 and so no preimage.)
 ///
-/// sign: the orientation's, see JacobianBounds. is_given_up: elements that need not be valid. None if no proof was
+/// signs: the orientation's. is_given_up: elements that need not be valid. None if no proof was
 /// found.
-std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element, double sign,
+std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element,
+                                                const OrientationSigns& signs,
                                                 const NodeElements& node_elements,
                                                 const std::function<bool(Index node)>& may_move,
                                                 const std::function<bool(Index element)>& is_given_up = {});

@@ -9,6 +9,7 @@
 #include "core/basis/reference_element.h"
 #include "core/mesh/conformity.h"
 #include "core/optimize/bfgs.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/jacobian_bounds.h"
 #include "core/quality/quality.h"
 #include "core/untangle/edge_angles.h"
@@ -152,7 +153,8 @@ class UnsignedAngleUntangler {
         const auto nodes = topology_.element_nodes(triangle);
         Eigen::MatrixX3d positions(static_cast<Eigen::Index>(nodes.size()), 3);
         for (std::size_t i = 0; i < nodes.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = x_.row(nodes[i]);
-        qualities_[triangle] = bounds_.bound(positions, *quality_options_.orientation_sign, quality_options_);
+        qualities_[triangle] = bounds_.bound(
+            positions, quality_options_.orientation_sign->of_element(topology_, triangle), quality_options_);
     }
 
     bool is_done(Index triangle) const {
@@ -350,7 +352,9 @@ UntangleResult untangle_unsigned_angles(const CurvedMesh& mesh, const UnsignedAn
                                         UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
     require_conforming(mesh, context);
-    return UnsignedAngleUntangler(mesh, options, observer, context).run();
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
+    return UnsignedAngleUntangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

@@ -56,11 +56,6 @@ const struct {
                      {CommandId::look_bottom, ViewDirection::minus_z},
                      {CommandId::look_isometric, ViewDirection::isometric}};
 
-/// Elements of either orientation in the file are numbered so; later on they are tangled.
-bool is_mixed(const MeshState& state) {
-    return state.quality && state.quality->orientation == Orientation::mixed;
-}
-
 }  // namespace
 
 MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
@@ -258,9 +253,14 @@ void MainWindow::show_state() {
                 tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
                    "numbering, not of tangling."),
                 tr("Flip"));
-        else if (state.quality->orientation == Orientation::mixed && is_mixed(document_.original()))
-            banner_->show_warning(tr("Some elements are numbered clockwise and others counter-clockwise; those of the "
-                                     "minority count as tangled."),
+        else if (summary.reversed > 0)
+            banner_->show_warning(tr("%1 elements are numbered against their neighbours (reversed). That is a matter "
+                                     "of numbering, not of tangling.")
+                                      .arg(format_count(summary.reversed)),
+                                  {});
+        else if (state.quality->orientation == Orientation::mixed)
+            banner_->show_warning(tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; each "
+                                     "is judged by its own numbering."),
                                   {});
     }
     if (Tool* tool = current_tool()) tool->refresh();
@@ -419,7 +419,10 @@ void MainWindow::tell_element(std::optional<Index> element) {
         const QString validity = quality.validity == Validity::valid     ? tr("proved valid")
                                  : quality.validity == Validity::invalid ? tr("tangled")
                                                                          : tr("undecided");
-        text += tr(": scaled Jacobian %1, %2").arg(format_number(quality.scaled_jacobian), validity);
+        if (quality.validity == Validity::not_assessed)
+            text += tr(": a pyramid, not assessed");
+        else
+            text += tr(": scaled Jacobian %1, %2").arg(format_number(quality.scaled_jacobian), validity);
     }
     statusBar()->showMessage(text);
 }
