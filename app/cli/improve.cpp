@@ -85,7 +85,7 @@ int run(const Options& options, Work& work) {
     improving.nodes = options.nodes.rules(input.topology());
     for (const std::string& rule : options.boundary) improving.boundary.add(rule);
     State before{input, certify(input, work), {}};
-    note_orientation(before.quality, work);
+    note_assessment(read.mesh.topology(), before.quality, work);
     before.shapes = element_shapes(input, input.coordinates(), work.context());
     work.end_phase("shape");
     const ImproveResult result = improve(input, improving, nullptr, work.context());
