@@ -12,6 +12,9 @@ namespace curvewright {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
+/// Lines are cut at this many sixteenths, not in their middle: curves that cross in the middle of both, as symmetric ones
+/// do, would otherwise cross in common corners of their pieces at all depths, and no crossing of pieces would show it.
+constexpr int line_cut = 7;
 
 void fill_line(FacetForm& form) {
     const int p = form.type.order;
@@ -76,6 +79,17 @@ void fill_quadrilateral(FacetForm& form) {
         }
 }
 
+/// De Casteljau's algorithm at the place where lines are cut.
+void cut_line(int p, const Eigen::Vector3d* whole, Eigen::Vector3d* near_a, Eigen::Vector3d* near_b) {
+    constexpr double t = line_cut / 16.0;
+    std::copy_n(whole, p + 1, near_b);
+    near_a[0] = whole[0];
+    for (int round = 1; round <= p; ++round) {
+        for (int i = 0; i <= p - round; ++i) near_b[i] = (1 - t) * near_b[i] + t * near_b[i + 1];
+        near_a[round] = near_b[0];
+    }
+}
+
 ExtendedMatrix conversion(ElementType type) {
     if (type.shape != Shape::quadrilateral) return lagrange_to_bernstein(type);
     const ElementType line{Shape::line, type.order};
@@ -121,7 +135,7 @@ void FacetForm::bisect(const Edge& edge, const Eigen::Vector3d* whole, Eigen::Ve
     const double* in = whole->data();
     double *out_a = near_a->data(), *out_b = near_b->data();
     const int p = type.order;
-    if (type.shape == Shape::line) return BernsteinSimplex::get(1, p).bisect(0, 1, 3, in, out_a, out_b);
+    if (type.shape == Shape::line) return cut_line(p, whole, near_a, near_b);
     if (type.shape == Shape::triangle) return BernsteinSimplex::get(2, p).bisect(edge.a, edge.b, 3, in, out_a, out_b);
     const BernsteinSimplex& along = BernsteinSimplex::get(1, p);
     if (edge.b - edge.a == 2) return along.bisect(0, 1, 3 * (p + 1), in, out_a, out_b);
@@ -183,6 +197,7 @@ bool FacetPieces::is_divisible(const FacetForm& form, int index) const {
     const FacetPiece& piece = (*this)[index];
     if (!(piece.box.diagonal() > 128 * piece.error)) return false;
     const FacetForm::Edge& edge = longest_edge(form, piece);
+    if (form.type.shape == Shape::line) return piece.corners[1][0] - piece.corners[0][0] >= 16;
     for (int d = 0; d < 2; ++d)
         if ((piece.corners[edge.a][d] + piece.corners[edge.b][d]) % 2 != 0) return false;
     return true;
@@ -203,6 +218,8 @@ int FacetPieces::divide(const FacetForm& form, int index) {
     const auto cut = [&](int a, int b) {
         FacetParameter middle{};
         for (int d = 0; d < 2; ++d) middle[d] = (whole.corners[a][d] + whole.corners[b][d]) / 2;
+        if (form.type.shape == Shape::line)
+            middle[0] = whole.corners[a][0] + line_cut * (whole.corners[b][0] - whole.corners[a][0]) / 16;
         near_a.corners[b] = near_b.corners[a] = middle;
     };
     cut(edge.a, edge.b);
@@ -211,9 +228,9 @@ int FacetPieces::divide(const FacetForm& form, int index) {
         cut(opposite.a, opposite.b);
     }
     form.bisect(edge, whole.control.data(), near_a.control.data(), near_b.control.data());
-    // Every round of de Casteljau's algorithm adds at most half an ulp of the largest coordinate.
+    // Every round of de Casteljau's algorithm adds at most half an ulp of the largest coordinate, or three.
     const double largest = std::max(whole.box.low.cwiseAbs().maxCoeff(), whole.box.high.cwiseAbs().maxCoeff());
-    near_a.error = near_b.error = whole.error + 2 * form.type.order * unit_roundoff * largest;
+    near_a.error = near_b.error = whole.error + 4 * form.type.order * unit_roundoff * largest;
     near_a.find_box();
     near_b.find_box();
     return first;

@@ -39,14 +39,14 @@ struct FacetForm {
     static const FacetForm& get(ElementType type);
 
     int corner_count() const { return static_cast<int>(corners.size()); }
-    /// Control points of the two halves that a cut through the middle of edge (a, b) leaves; a quadrilateral is cut
-    /// through the opposite edge, too. No aliasing; each array has `size` entries.
+    /// Control points of the two parts that a cut through the middle of edge (a, b) leaves; a quadrilateral is cut
+    /// through the opposite edge, too, and a line beside its middle. No aliasing; each array has `size` entries.
     void bisect(const Edge& edge, const Eigen::Vector3d* whole, Eigen::Vector3d* near_a, Eigen::Vector3d* near_b) const;
 };
 
-/// Parameters of a corner of a piece, in units of 2^-40.
+/// Parameters of a corner of a piece, in units of 2^-50.
 using FacetParameter = std::array<std::int64_t, 2>;
-inline constexpr std::int64_t facet_parameter_one = std::int64_t{1} << 40;
+inline constexpr std::int64_t facet_parameter_one = std::int64_t{1} << 50;
 
 /// The parameters of a form's corners.
 FacetParameter corner_parameter(const FacetForm& form, int corner);
@@ -80,7 +80,7 @@ class FacetPieces {
     const FacetPiece& operator[](int piece) const { return pieces_[static_cast<std::size_t>(piece)]; }
     /// Whether a piece is large enough to be cut, for its coordinates' errors and its parameters.
     bool is_divisible(const FacetForm& form, int piece) const;
-    /// Cuts a piece through the middle of its longest edge, once; first child, the second follows.
+    /// Cuts a piece through its longest edge, once; first child, the second follows.
     int divide(const FacetForm& form, int piece);
     int count() const { return used_; }
 

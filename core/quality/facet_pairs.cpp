@@ -10,7 +10,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// Once two facets are found to touch, how many cuts may yet look for a place where they cross.
-constexpr std::int64_t cuts_after_contact = 2000;
+constexpr std::int64_t cuts_after_contact = 200;
 
 /// Which edge of the facet a parameter lies on and how far along it from its corner a, if any.
 bool lies_on(const FacetForm& form, const FacetForm::Edge& edge, const FacetParameter& at, std::int64_t& distance) {

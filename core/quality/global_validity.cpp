@@ -17,6 +17,8 @@ namespace {
 
 /// Cuts that every pair of facets is allowed at first; most pairs that are apart need none.
 constexpr std::int64_t first_cuts = 300;
+/// Facets that touch others which are examined for an overlap, at most.
+constexpr std::size_t most_suspects = 400;
 
 /// Two facets of the chain and what was found about them.
 struct Finding {
@@ -226,6 +228,7 @@ BoundaryEmbedding assess_boundary_embedding(const CurvedMesh& mesh, double orien
     for (const auto& [a, b] : chain.doubled()) list(result.crossings, result.crossing_count, {a, b}, options);
     for (const auto& [a, b] : chain.unmatched()) list(result.unmatched, result.unmatched_count, {a, b}, options);
     bool touches = false;
+    std::vector<int> suspects;
     for (const Finding& finding : compare_all(chain, tree, options, context)) {
         const FacetPair pair{chain[finding.f].facet, chain[finding.g].facet};
         if (finding.relation == FacetRelation::crossing) {
@@ -233,10 +236,11 @@ BoundaryEmbedding assess_boundary_embedding(const CurvedMesh& mesh, double orien
         } else {
             touches = touches || (result.unsettled.empty() && finding.relation == FacetRelation::touching);
             list(result.unsettled, result.unsettled_count, pair, options);
+            if (suspects.size() < most_suspects) suspects.insert(suspects.end(), {finding.f, finding.g});
         }
     }
     const WindingOutcome winding =
-        result.crossing_count > 0 ? WindingOutcome{} : WindingLines(chain, tree).follow(context);
+        result.crossing_count > 0 ? WindingOutcome{} : WindingLines(chain, tree).follow(suspects, context);
     conclude(result, topology, chain, winding, touches);
     return result;
 }

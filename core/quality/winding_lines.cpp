@@ -14,6 +14,7 @@ using Eigen::Vector3d;
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
 constexpr int most_attempts = 24;
+constexpr int attempts_at_suspects = 4;
 /// Pieces that a line may be cut off from one facet, at most.
 constexpr int most_pieces = 4000;
 
@@ -230,7 +231,7 @@ bool WindingLines::follow_line(const Line& line, std::vector<bool>& is_settled, 
     return true;
 }
 
-WindingOutcome WindingLines::follow(const TaskContext& context) {
+WindingOutcome WindingLines::follow(const std::vector<int>& suspects, const TaskContext& context) {
     WindingOutcome outcome;
     std::vector<std::vector<int>> members(static_cast<std::size_t>(chain_.component_count()));
     for (int facet = 0; facet < chain_.size(); ++facet)
@@ -246,6 +247,14 @@ WindingOutcome WindingLines::follow(const TaskContext& context) {
         }
         if (is_settled[component]) continue;
         if (outcome.unsettled_components++ == 0) outcome.first_unsettled = facets.front();
+    }
+    for (const int facet : suspects) {
+        context.check();
+        for (int attempt = 0; attempt < attempts_at_suspects; ++attempt) {
+            const bool is_told = follow_line(line_through(facet, attempt), is_settled, outcome);
+            if (outcome.fault) return outcome;
+            if (is_told) break;
+        }
     }
     return outcome;
 }

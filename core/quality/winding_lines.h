@@ -30,8 +30,8 @@ class WindingLines {
   public:
     WindingLines(const BoundaryChain& chain, const BoxTree& tree) : chain_(chain), tree_(tree) {}
 
-    /// Throws Cancelled.
-    WindingOutcome follow(const TaskContext& context);
+    /// suspects: facets that are not proved to be apart from all others; lines go through them, too. Throws Cancelled.
+    WindingOutcome follow(const std::vector<int>& suspects, const TaskContext& context);
 
   private:
     struct Line {
