@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "app/cli/untangle_outcome.h"
 #include "app/cli/untangle_report.h"
@@ -123,6 +124,7 @@ int run(const Options& options, Work& work) {
     work.end_phase("prepare", result.timings);
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
     const QualityReport after = certify_result(mesh, before, work);
+    const GlobalCheck global(mesh, after, work);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), work.context());
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), work.context());
     work.end_phase("shape");
@@ -144,15 +146,17 @@ int run(const Options& options, Work& work) {
              {"shape", shape_json(shape)},
              {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
              {"worst", worst_json(mesh, after)}});
+        global.add_to(json, mesh);
         if (report) json["report"] = options.report.string();
         work.print(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
         fmt::print("{}\n", run_text(input.topology(), of_method, result, work.timings()));
+        fmt::print("{}\n", global.line());
         if (report) fmt::print("report  {}\n", (options.report / report_html_name).string());
     }
-    return validity_status(after.summary);
+    return std::max(validity_status(after.summary), global.status());
 }
 
 }  // namespace

@@ -1,8 +1,11 @@
 #include "core/warp/warp.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "app/cli/warp_options.h"
 #include "core/io/deformation_file.h"
@@ -153,16 +156,22 @@ int run(const WarpArguments& arguments, Work& work) {
     const Assessment before = assess(input, work);
     if (before.report) note_orientation(*before.report, work);
     const Outcome outcome = move(arguments, input, deformation, before, work);
+    const auto global = check_globally(outcome.mesh, outcome.quality, work);
     write_output(arguments.output, outcome.mesh, read.fields,
                  outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), work);
 
     note_remarks(arguments, outcome, work);
-    if (work.is_json())
-        work.print(result_json(arguments, before, outcome));
-    else
+    if (work.is_json()) {
+        Json json = result_json(arguments, before, outcome);
+        if (global) global->add_to(json, outcome.mesh);
+        work.print(json);
+    } else {
         print_result(arguments, before, outcome);
+        if (global) fmt::print("{}\n", global->line());
+    }
     if (!outcome.is_complete()) return exit_not_valid;
-    return outcome.quality.report ? validity_status(outcome.quality.report->summary) : exit_done;
+    if (!global) return exit_done;
+    return std::max(validity_status(outcome.quality.report->summary), global->status());
 }
 
 }  // namespace

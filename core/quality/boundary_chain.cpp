@@ -276,8 +276,9 @@ void BoundaryChain::convert(const CurvedMesh& mesh, const TaskContext& context) 
             Rows x(chain.form->size, 3);
             for (int node = 0; node < chain.form->size; ++node)
                 for (int d = 0; d < 3; ++d)
-                    x(node, d) = d < dimension_ ? mesh.coordinates()(points[static_cast<std::size_t>(node)], d) - center_[d]
-                                                : 0.0;
+                    x(node, d) = d < dimension_
+                                     ? mesh.coordinates()(points[static_cast<std::size_t>(node)], d) - center_[d]
+                                     : 0.0;
             const Eigen::Matrix<long double, 1, 3> origin = x.row(0);
             x.rowwise() -= origin;
             const auto extent = static_cast<double>(x.cwiseAbs().maxCoeff());

@@ -23,9 +23,9 @@ struct ChainFacet {
     Box box;
 };
 
-/// The boundary of a mesh as a geometric chain: what is left of the sum of its elements' boundaries when facets that lie
-/// on each other with their elements on opposite sides (a closed slit, bodies in contact) have cancelled. Nodes of the
-/// boundary that lie on each other up to rounding are one point, edges that do are one curve.
+/// The boundary of a mesh as a geometric chain: what is left of the sum of its elements' boundaries when facets that
+/// lie on each other with their elements on opposite sides (a closed slit, bodies in contact) have cancelled. Nodes of
+/// the boundary that lie on each other up to rounding are one point, edges that do are one curve.
 class BoundaryChain {
   public:
     /// sign: of J of a valid element. is_reversed: per element, empty for none.

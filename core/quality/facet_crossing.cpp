@@ -38,7 +38,8 @@ bool leads_across(const FacetForm& form_f, const FacetPiece& f, const FacetForm&
     for (const Vector3d& c : f.control) slab.add(y.dot(c - start));
     for (const Vector3d& c : g.control) width.add(x.dot(c - start));
     if (!(width.low > error && width.high < length - error)) return false;
-    const double first = y.dot(g.control[form_g.corners[0]] - start), last = y.dot(g.control[form_g.corners[1]] - start);
+    const double first = y.dot(g.control[form_g.corners[0]] - start),
+                 last = y.dot(g.control[form_g.corners[1]] - start);
     return std::min(first, last) < slab.low - error && std::max(first, last) > slab.high + error;
 }
 
@@ -86,7 +87,8 @@ bool find_projected_winding(const FacetForm& form, const FacetPiece& piece, cons
     const double slack = radius + 2 * product_error(piece, piece) +
                          32 * unit_roundoff * (piece.control.front() - center).cwiseAbs().maxCoeff();
     for (int k = 0; k < corners; ++k) {
-        const int a = form.loop[static_cast<std::size_t>(k)], b = form.loop[static_cast<std::size_t>((k + 1) % corners)];
+        const int a = form.loop[static_cast<std::size_t>(k)],
+                  b = form.loop[static_cast<std::size_t>((k + 1) % corners)];
         const auto edge = std::find_if(form.edges.begin(), form.edges.end(), [&](const FacetForm::Edge& candidate) {
             return std::min(a, b) == candidate.a && std::max(a, b) == candidate.b;
         });
@@ -103,7 +105,8 @@ bool find_projected_winding(const FacetForm& form, const FacetPiece& piece, cons
             const double side = normal.dot(from) < 0.0 ? -1.0 : 1.0;
             is_parted = true;
             for (const int position : edge->positions)
-                is_parted = is_parted && side * normal.dot(projection.of(piece.control[position] - center)) > length * slack;
+                is_parted =
+                    is_parted && side * normal.dot(projection.of(piece.control[position] - center)) > length * slack;
         }
         if (!is_parted) return false;
         angle += std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));

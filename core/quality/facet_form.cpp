@@ -12,8 +12,9 @@ namespace curvewright {
 namespace {
 
 constexpr double unit_roundoff = std::numeric_limits<double>::epsilon() / 2;
-/// Lines are cut at this many sixteenths, not in their middle: curves that cross in the middle of both, as symmetric ones
-/// do, would otherwise cross in common corners of their pieces at all depths, and no crossing of pieces would show it.
+/// Lines are cut at this many sixteenths, not in their middle: curves that cross in the middle of both, as symmetric
+/// ones do, would otherwise cross in common corners of their pieces at all depths, and no crossing of pieces would show
+/// it.
 constexpr int line_cut = 7;
 
 void fill_line(FacetForm& form) {

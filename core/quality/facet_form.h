@@ -27,13 +27,14 @@ struct FacetForm {
     };
 
     ElementType type;
-    int size = 0;                           ///< number of control points
-    std::vector<int> corners;               ///< positions of the control points that are the corners
-    std::vector<int> loop;                  ///< corners in the order of the reference cell (VTK's), around it
-    std::vector<Edge> edges;                ///< a line has itself
-    std::array<std::vector<std::array<int, 2>>, 2> steps;  ///< along u and v: the derivative's control vectors c[0] - c[1]
-    ExtendedMatrix to_bernstein;            ///< from the nodes in the facet's own order
-    double conversion_error = 0.0;          ///< of a control point, per unit of the nodes' extent
+    int size = 0;              ///< number of control points
+    std::vector<int> corners;  ///< positions of the control points that are the corners
+    std::vector<int> loop;     ///< corners in the order of the reference cell (VTK's), around it
+    std::vector<Edge> edges;   ///< a line has itself
+    std::array<std::vector<std::array<int, 2>>, 2>
+        steps;                      ///< along u and v: the derivative's control vectors c[0] - c[1]
+    ExtendedMatrix to_bernstein;    ///< from the nodes in the facet's own order
+    double conversion_error = 0.0;  ///< of a control point, per unit of the nodes' extent
 
     /// Made at the first call; safe to call from several threads. type: of a line, triangle or quadrilateral.
     static const FacetForm& get(ElementType type);
@@ -63,8 +64,8 @@ struct Box {
 /// A part of a facet.
 struct FacetPiece {
     int facet = 0;
-    int first_child = -1;                        ///< of two; -1: not cut yet
-    std::array<FacetParameter, 4> corners{};     ///< per corner of the form
+    int first_child = -1;                     ///< of two; -1: not cut yet
+    std::array<FacetParameter, 4> corners{};  ///< per corner of the form
     std::vector<Eigen::Vector3d> control;
     double error = 0.0;  ///< bound of the distance of every coordinate of every control point from the exact one
     Box box;             ///< of the control points, error included

@@ -46,8 +46,7 @@ std::vector<CornerFacet> facets_by_corner(const MeshTopology& topology) {
     for (auto begin = grouped.begin(); begin != grouped.end();) {
         auto end = begin;
         while (end != grouped.end() && end->sorted[0] == begin->sorted[0]) ++end;
-        std::stable_sort(begin, end,
-                         [](const CornerFacet& a, const CornerFacet& b) { return a.sorted < b.sorted; });
+        std::stable_sort(begin, end, [](const CornerFacet& a, const CornerFacet& b) { return a.sorted < b.sorted; });
         begin = end;
     }
     return grouped;
@@ -72,8 +71,8 @@ CornerMatch match_corners(std::span<const Index> a, std::span<const Index> b) {
         for (const int sense : {1, -1}) {
             bool matches = true;
             for (int k = 0; k < count && matches; ++k)
-                matches = a[static_cast<std::size_t>(k)] ==
-                          b[static_cast<std::size_t>((first + sense * k + count) % count)];
+                matches =
+                    a[static_cast<std::size_t>(k)] == b[static_cast<std::size_t>((first + sense * k + count) % count)];
             if (matches) return {first, count == 2 && first == 1 ? -1 : sense};
         }
     return {};
@@ -152,8 +151,7 @@ class ConflictFinder {
         const std::vector<Index> nodes = topology_.facet_nodes(a.facet);
         for (std::size_t k = 1; k < facets.size(); ++k)
             if (!have_same_nodes(nodes, topology_.facet_nodes(facets[k].facet))) return std::nullopt;
-        const auto kind =
-            facets.size() > 2 ? FacetConflict::Kind::shared_by_many : FacetConflict::Kind::other_order;
+        const auto kind = facets.size() > 2 ? FacetConflict::Kind::shared_by_many : FacetConflict::Kind::other_order;
         return FacetConflict{kind, a.facet, b.facet};
     }
 

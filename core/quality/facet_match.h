@@ -19,8 +19,8 @@ struct CornerMatch {
 /// corners: of the two facets, in the order of their cells.
 CornerMatch match_corners(std::span<const Index> a, std::span<const Index> b);
 
-/// Per node of a facet of the given type, in the order of its cell, the node of a matching facet of the same type at the
-/// same place.
+/// Per node of a facet of the given type, in the order of its cell, the node of a matching facet of the same type at
+/// the same place.
 const std::vector<int>& matched_nodes(ElementType type, CornerMatch match);
 
 /// +1 if a facet of an element runs round so that its normal (of d/du × d/dv in 3D; to the right of it in 2D) points

@@ -57,7 +57,9 @@ Index FacetPairTest::curve_of(int index, const FacetForm::Edge& edge) const {
 bool FacetPairTest::is_injective(int index) {
     const FacetPiece& piece = pieces_[index];
     const FacetForm& form = form_of(index);
-    const auto step = [&](const std::array<int, 2>& c) -> Vector3d { return piece.control[c[0]] - piece.control[c[1]]; };
+    const auto step = [&](const std::array<int, 2>& c) -> Vector3d {
+        return piece.control[c[0]] - piece.control[c[1]];
+    };
     search_.clear();
     for (const auto& c : form.steps[0]) search_.add(step(c), 2 * piece.error);
     const std::size_t along_u = search_.size();
@@ -152,8 +154,7 @@ bool FacetPairTest::divide(int f, int g) {
         const int cut = cuts_f ? f : g;
         if (!pieces_.is_divisible(form_of(cut), cut)) continue;
         const int half = pieces_.divide(form_of(cut), cut);
-        for (const int part : {half + 1, half})
-            stack_.push_back(cuts_f ? std::pair(part, g) : std::pair(f, part));
+        for (const int part : {half + 1, half}) stack_.push_back(cuts_f ? std::pair(part, g) : std::pair(f, part));
         ++cuts_;
         return true;
     }

@@ -17,11 +17,11 @@ enum class FacetRelation {
 
 /// Tells whether facets of a chain cross, by cutting them into pieces. Pieces without a common corner are apart when a
 /// plane parts their control points. Pieces with one common corner P meet in P only when a plane through P parts the
-/// cones of their control points seen from P. Pieces with a common edge e meet in e only when there are directions n and
-/// m that are positive on the vectors that lead from the edge into one piece and on the negated ones of the other, while
-/// along the edge n rises and m falls: in the coordinates x = (n - m) and y = (n + m), the edge is then the graph of a
-/// function of slope below 1, one piece lies above it and the other below. One piece meets itself nowhere when there are
-/// n positive on both derivatives' control vectors, and m positive on one's and negative on the other's; then
+/// cones of their control points seen from P. Pieces with a common edge e meet in e only when there are directions n
+/// and m that are positive on the vectors that lead from the edge into one piece and on the negated ones of the other,
+/// while along the edge n rises and m falls: in the coordinates x = (n - m) and y = (n + m), the edge is then the graph
+/// of a function of slope below 1, one piece lies above it and the other below. One piece meets itself nowhere when
+/// there are n positive on both derivatives' control vectors, and m positive on one's and negative on the other's; then
 /// f(q) - f(p), an integral of them, never vanishes. One object per thread.
 class FacetPairTest {
   public:

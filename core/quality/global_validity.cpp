@@ -83,8 +83,9 @@ void conclude(BoundaryEmbedding& result, const MeshTopology& topology, const Bou
     if (result.crossing_count > 0) {
         result.answer = GlobalValidity::no;
         if (!chain.doubled().empty())
-            result.reason = fmt::format("The mesh overlaps itself: {} lie on each other with both elements on the same side.",
-                                        describe(topology, result.crossings.front()));
+            result.reason =
+                fmt::format("The mesh overlaps itself: {} lie on each other with both elements on the same side.",
+                            describe(topology, result.crossings.front()));
         else if (const FacetPair& first = result.crossings.front();
                  first.a.element == first.b.element && first.a.local == first.b.local)
             result.reason = fmt::format("The boundary crosses itself: {} does.", describe(topology, first));
@@ -110,9 +111,10 @@ void conclude(BoundaryEmbedding& result, const MeshTopology& topology, const Bou
     }
     if (result.unsettled_count > 0) {
         const std::string first = describe(topology, result.unsettled.front());
-        result.reason = touches ? fmt::format("The boundary touches itself, up to rounding: {}; whether it crosses itself "
-                                              "there is not proved.",
-                                              first)
+        result.reason = touches ? fmt::format(
+                                      "The boundary touches itself, up to rounding: {}; whether it crosses itself "
+                                      "there is not proved.",
+                                      first)
                                 : fmt::format("Whether {} cross was not found within the work that is allowed.", first);
         if (result.unsettled_count > 1) {
             result.reason.pop_back();
@@ -179,7 +181,8 @@ GlobalValidity judge_facets(const MeshTopology& topology, GlobalValidityReport& 
     for (const FacetConflict& conflict : find_facet_conflicts(topology, reversed_elements(topology))) {
         list(report.conflicts, report.conflict_count, {conflict.a, conflict.b}, options);
         if (reason.empty())
-            reason = fmt::format(fmt::runtime(sentence_of(conflict.kind)), describe(topology, report.conflicts.front()));
+            reason =
+                fmt::format(fmt::runtime(sentence_of(conflict.kind)), describe(topology, report.conflicts.front()));
     }
     return report.conflict_count > 0 ? GlobalValidity::no : GlobalValidity::yes;
 }
@@ -255,8 +258,8 @@ GlobalValidityReport assess_global_validity(const CurvedMesh& mesh, const Qualit
                                             const BoundaryEmbedding* known) {
     const MeshTopology& topology = mesh.topology();
     if (quality.elements.size() != static_cast<std::size_t>(topology.element_count()))
-        throw InvalidInput(fmt::format("The quality report is of {} elements; the mesh has {}.", quality.elements.size(),
-                                       topology.element_count()));
+        throw InvalidInput(fmt::format("The quality report is of {} elements; the mesh has {}.",
+                                       quality.elements.size(), topology.element_count()));
     GlobalValidityReport report;
     std::string elements_reason, conformity_reason;
     report.elements = judge_elements(topology, quality, elements_reason);

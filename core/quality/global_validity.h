@@ -49,10 +49,10 @@ struct BoundaryEmbedding {
 /// Whether a mesh is more than a set of valid elements: its map into space is injective but for common facets.
 struct GlobalValidityReport {
     GlobalValidity answer = GlobalValidity::undecided;
-    std::string reason;                                       ///< one sentence: of the part that decides
-    GlobalValidity elements = GlobalValidity::undecided;      ///< every J > 0
-    GlobalValidity conformity = GlobalValidity::undecided;    ///< facets match, with elements on both sides
-    std::vector<FacetPair> conflicts;                         ///< facets that do not match
+    std::string reason;                                     ///< one sentence: of the part that decides
+    GlobalValidity elements = GlobalValidity::undecided;    ///< every J > 0
+    GlobalValidity conformity = GlobalValidity::undecided;  ///< facets match, with elements on both sides
+    std::vector<FacetPair> conflicts;                       ///< facets that do not match
     Index conflict_count = 0;
     BoundaryEmbedding boundary;
 };
@@ -66,11 +66,11 @@ BoundaryEmbedding assess_boundary_embedding(const CurvedMesh& mesh, double orien
 /// Whether all nodes of the boundary are bit for bit where they were: what was found about the boundary still holds.
 bool has_same_boundary(const MeshTopology& topology, const Coordinates& a, const Coordinates& b);
 
-/// Whether the mesh is valid as a whole: (i) every J > 0, (ii) facets conform with elements on opposite sides, (iii) the
-/// boundary is embedded, with winding number 1 inside. Together they imply that no two elements overlap. quality: of the
-/// mesh at these coordinates. known: what was found about its boundary (see has_same_boundary); null: to be found.
-/// Elements that are numbered the other way round than their neighbours are judged as if they were renumbered. Throws
-/// InvalidInput for a report of another mesh, Unsupported and Cancelled.
+/// Whether the mesh is valid as a whole: (i) every J > 0, (ii) facets conform with elements on opposite sides, (iii)
+/// the boundary is embedded, with winding number 1 inside. Together they imply that no two elements overlap. quality:
+/// of the mesh at these coordinates. known: what was found about its boundary (see has_same_boundary); null: to be
+/// found. Elements that are numbered the other way round than their neighbours are judged as if they were renumbered.
+/// Throws InvalidInput for a report of another mesh, Unsupported and Cancelled.
 GlobalValidityReport assess_global_validity(const CurvedMesh& mesh, const QualityReport& quality,
                                             const GlobalValidityOptions& options = {}, const TaskContext& context = {},
                                             const BoundaryEmbedding* known = nullptr);

@@ -9,9 +9,10 @@
 namespace curvewright {
 
 /// Looks for a direction n with n·w > 0 for all of a set of vectors that are known to within errors: a proof that no
-/// combination of them with non-negative factors vanishes. Iterates like Gilbert's algorithm (Gilbert, Johnson, Keerthi,
-/// "A fast procedure for computing the distance between complex objects in three-dimensional space", IEEE J. Robotics
-/// Automation 4, 1988) and checks what it finds with rounding bounds. Reusable work space; one object per thread.
+/// combination of them with non-negative factors vanishes. Iterates like Gilbert's algorithm (Gilbert, Johnson,
+/// Keerthi, "A fast procedure for computing the distance between complex objects in three-dimensional space", IEEE J.
+/// Robotics Automation 4, 1988) and checks what it finds with rounding bounds. Reusable work space; one object per
+/// thread.
 class DirectionSearch {
   public:
     void clear();
@@ -28,8 +29,8 @@ class DirectionSearch {
     std::vector<double> slack_;             ///< that n·w / |n| has to exceed
 };
 
-/// Whether a plane that parts the convex hulls of two point sets is found; error: bound of the error of every coordinate
-/// of all points.
+/// Whether a plane that parts the convex hulls of two point sets is found; error: bound of the error of every
+/// coordinate of all points.
 bool are_separable(const std::vector<Eigen::Vector3d>& f, const std::vector<Eigen::Vector3d>& g, double error);
 
 /// Up to four points and the point of their hull that is closest to the origin.

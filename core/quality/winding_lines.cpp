@@ -20,9 +20,9 @@ constexpr int most_pieces = 4000;
 
 /// Bound of the error of a product of a unit vector and the difference of a control point and the line's point.
 double height_error(const FacetPiece& piece, const Vector3d& point) {
-    return 4 * piece.error + 64 * unit_roundoff *
-                                 ((piece.box.high - point).cwiseAbs().maxCoeff() +
-                                  (piece.box.low - point).cwiseAbs().maxCoeff());
+    return 4 * piece.error +
+           64 * unit_roundoff *
+               ((piece.box.high - point).cwiseAbs().maxCoeff() + (piece.box.low - point).cwiseAbs().maxCoeff());
 }
 
 /// A fraction that looks random and is the same every time.
@@ -115,8 +115,7 @@ WindingLines::Meeting WindingLines::meet_surface(const Line& line, const FacetFo
     for (const Vector2d& normal : {middle, Vector2d(1, 0), Vector2d(-1, 0), Vector2d(0, 1), Vector2d(0, -1)}) {
         const double slack = 2 * error * normal.norm();
         bool is_off = true;
-        for (const Vector3d& c : piece.control)
-            is_off = is_off && normal.dot(projection.of(c - line.point)) > slack;
+        for (const Vector3d& c : piece.control) is_off = is_off && normal.dot(projection.of(c - line.point)) > slack;
         if (is_off) return Meeting::none;
     }
     bool positive = true, negative = true;
@@ -125,8 +124,8 @@ WindingLines::Meeting WindingLines::meet_surface(const Line& line, const FacetFo
         for (const auto& [c, d] : form.steps[1]) {
             const Vector2d v = projection.of(piece.control[c] - piece.control[d]);
             const double determinant = u.x() * v.y() - u.y() * v.x();
-            const double slack = 2 * error * (u.norm() + v.norm() + 2 * error) +
-                                 8 * unit_roundoff * u.norm() * v.norm();
+            const double slack =
+                2 * error * (u.norm() + v.norm() + 2 * error) + 8 * unit_roundoff * u.norm() * v.norm();
             positive = positive && determinant > slack;
             negative = negative && determinant < -slack;
         }
@@ -227,7 +226,8 @@ bool WindingLines::follow_line(const Line& line, std::vector<bool>& is_settled, 
         return true;
     }
     if (winding != 0) return false;
-    for (const Hit& hit : hits) is_settled[static_cast<std::size_t>(chain_.components()[pieces_[hit.piece].facet])] = true;
+    for (const Hit& hit : hits)
+        is_settled[static_cast<std::size_t>(chain_.components()[pieces_[hit.piece].facet])] = true;
     return true;
 }
 

@@ -23,9 +23,9 @@ struct WindingOutcome {
 };
 
 /// Follows lines through every component of a chain and counts how often they enter and leave the mesh. Between two
-/// crossings the count is the winding number of the whole boundary there, which has to be 0 or 1. A component is settled
-/// when a line crosses it. What a line crosses is proved: a piece whose tangent planes are nowhere parallel to the line
-/// and whose boundary, seen along the line, winds around it once (not at all) meets the line once (never).
+/// crossings the count is the winding number of the whole boundary there, which has to be 0 or 1. A component is
+/// settled when a line crosses it. What a line crosses is proved: a piece whose tangent planes are nowhere parallel to
+/// the line and whose boundary, seen along the line, winds around it once (not at all) meets the line once (never).
 class WindingLines {
   public:
     WindingLines(const BoundaryChain& chain, const BoxTree& tree) : chain_(chain), tree_(tree) {}
