@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/node_options.h"
 #include "app/cli/output.h"
 #include "app/cli/target.h"
@@ -98,6 +99,7 @@ int run(const Options& options, Work& work) {
     work.end_phase("shape");
     const bool is_cancelled = result.reason == StopReason::cancelled;
     if (is_cancelled && !note_cancelled(after.quality, options.output.file, work)) return exit_cancelled;
+    const GlobalCheck global(mesh, after.quality, work);
     write_output(options.output, mesh, read.fields, &after.quality, &input.coordinates(), work);
 
     const Target target{improving.target, options.has_target, improving.goal};
@@ -107,11 +109,15 @@ int run(const Options& options, Work& work) {
                       ? fmt::format("Every element has at least the target {:g}; nothing was changed.", target.value)
                       : std::string("Nothing better was found; nothing was changed."));
     const int status = note_target(target, outcome, work);
-    if (work.is_json())
-        work.print(result_json(options, before, after, result));
-    else
+    if (work.is_json()) {
+        Json json = result_json(options, before, after, result);
+        global.add_to(json, mesh);
+        work.print(json);
+    } else {
         print_result(options, before, after, result, work.seconds("improve"));
-    return is_cancelled ? exit_cancelled : status;
+        fmt::print("{}\n", global.line());
+    }
+    return is_cancelled ? exit_cancelled : worse_status(status, global.status());
 }
 
 }  // namespace

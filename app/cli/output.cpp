@@ -1,5 +1,6 @@
 #include "app/cli/output.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <functional>
 #include <map>
@@ -206,6 +207,11 @@ void note_assessment(const MeshTopology& topology, const QualityReport& report, 
             pyramids == 1 ? "1 pyramid was" : fmt::format("{} pyramids were", pyramids),
             first_tag(topology,
                       [&](Index element) { return topology.element_type(element).shape == Shape::pyramid; })));
+}
+
+int worse_status(int a, int b) {
+    if (a == exit_not_valid || b == exit_not_valid) return exit_not_valid;
+    return std::max(a, b);
 }
 
 int validity_status(const QualitySummary& summary) {

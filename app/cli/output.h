@@ -64,5 +64,7 @@ void note_winding(const MeshTopology& topology, Work& work);
 void note_assessment(const MeshTopology& topology, const QualityReport& report, Work& work);
 /// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.
 int validity_status(const QualitySummary& summary);
+/// The one of two statuses of a command that got done that says more: not valid before less than asked before done.
+int worse_status(int a, int b);
 
 }  // namespace curvewright::cli

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "core/io/atomic_file.h"
 
@@ -44,19 +45,22 @@ int run(const Options& options, Work& work) {
     const CurvedMesh mesh = read_input(options.input, work).mesh;
     const QualityReport report = certify(mesh, work, options.quality);
     note_assessment(mesh.topology(), report, work);
+    const GlobalCheck global(mesh, report, work);
     if (!options.csv.empty()) {
         write_text_file(options.csv, to_csv(mesh, report));
         work.end_phase("write");
     }
     const int status = note_least(options, report, work);
     if (work.is_json()) {
-        const Json json = {{"mesh", mesh_json(options.input.file, mesh)},
-                           {"orientation", to_string(report.orientation)},
-                           {"scaled_jacobian", summary_json(report.summary)},
-                           {"worst", worst_json(mesh, report)}};
+        Json json = {{"mesh", mesh_json(options.input.file, mesh)},
+                     {"orientation", to_string(report.orientation)},
+                     {"scaled_jacobian", summary_json(report.summary)},
+                     {"worst", worst_json(mesh, report)}};
+        global.add_to(json, mesh);
         work.print(json);
     } else {
-        fmt::print("{}: {}\n{}\n", options.input.file.string(), mesh_line(mesh), summary_line(report.summary));
+        fmt::print("{}: {}\n{}\n{}\n", options.input.file.string(), mesh_line(mesh), summary_line(report.summary),
+                   global.line());
         for (Index element : report.worst(10)) {
             const ElementQuality& q = report.elements[element];
             const auto center = mesh.element_center(element);
@@ -65,7 +69,7 @@ int run(const Options& options, Work& work) {
                        center[1], center[2]);
         }
     }
-    return status;
+    return worse_status(status, global.status());
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/node_options.h"
 #include "app/cli/output.h"
 #include "app/cli/target.h"
@@ -170,6 +171,7 @@ int run(const Options& options, Work& work) {
     const QualityReport after = certify_result(mesh, before, work);
     const bool is_cancelled = result.reason == StopReason::cancelled;
     if (is_cancelled && !note_cancelled(after, options.output.file, work)) return exit_cancelled;
+    const GlobalCheck global(mesh, after, work);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), work.context());
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), work.context());
     work.end_phase("shape");
@@ -193,15 +195,17 @@ int run(const Options& options, Work& work) {
              {"shape", shape_json(shape)},
              {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
              {"worst", worst_json(mesh, after)}});
+        global.add_to(json, mesh);
         if (report) json["report"] = options.report.string();
         work.print(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
         fmt::print("{}\n", run_text(of_method, result, work.timings()));
+        fmt::print("{}\n", global.line());
         if (report) fmt::print("report  {}\n", (options.report / report_html_name).string());
     }
-    return is_cancelled ? exit_cancelled : status;
+    return is_cancelled ? exit_cancelled : worse_status(status, global.status());
 }
 
 }  // namespace
