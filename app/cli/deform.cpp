@@ -29,8 +29,7 @@ int run(const Options& options, Work& work) {
     // Judged with the input's orientation; the interior stays behind, so that elements may be tangled: only what a warp
     // could not mend, a boundary that crosses itself, decides the status.
     Assessment original;
-    if (is_assessable(input))
-        original.report.emplace().orientation_sign = orientation_sign(find_orientation(input), input);
+    if (is_assessable(input)) original.report.emplace().orientation_sign = orientation_signs(input);
     const Assessment moved_quality = assess_result(mesh, original, work);
     const auto& quality = moved_quality.report;
     const auto global = check_globally(mesh, moved_quality, work);
