@@ -193,4 +193,23 @@ BoundaryRules BoundaryField::rules() const {
     return rules;
 }
 
+void BoundaryField::set_rules(const BoundaryRules& rules) {
+    const auto choose = [this](Mode mode) { choice_->setCurrentIndex(choice_->findData(int(mode))); };
+    if (rules.groups.empty()) {
+        choose(rules.otherwise == BoundaryMode::fixed   ? Mode::fixed
+               : rules.otherwise == BoundaryMode::slide ? Mode::slide
+                                                        : Mode::free);
+        return;
+    }
+    choose(Mode::by_group);
+    for (int row = 0; row < groups_->topLevelItemCount(); ++row) {
+        QTreeWidgetItem* item = groups_->topLevelItem(row);
+        BoundaryMode mode = rules.otherwise;
+        for (const BoundaryRules::Rule& rule : rules.groups)
+            if (rule.group == item->text(0).toStdString()) mode = rule.mode;
+        set_mode(item, mode);
+    }
+    emit changed();
+}
+
 }  // namespace curvewright

@@ -33,6 +33,9 @@ class BoundaryField : public QObject {
     /// The named parts of a mesh's boundary; null: none. Parts of the same names keep what they may do.
     void list_groups(const MeshTopology* topology);
     BoundaryRules rules() const;
+    /// Shows rules. Of groups and a rule for the rest that is not "stays", the rest is told of every group that has no
+    /// rule of its own.
+    void set_rules(const BoundaryRules& rules);
 
   signals:
     void changed();

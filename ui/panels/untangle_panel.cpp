@@ -181,4 +181,11 @@ void UntanglePanel::choose_guaranteed() {
     method_->setCurrentIndex(method_->findData(int(UntangleMethod::guaranteed)));
 }
 
+void UntanglePanel::show_options(const GuaranteedOptions& options) {
+    choose_guaranteed();
+    improves_->setChecked(options.improves);
+    target_->setValue(options.target);
+    boundary_->set_rules(options.boundary);
+}
+
 }  // namespace curvewright
