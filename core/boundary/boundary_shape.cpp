@@ -59,14 +59,15 @@ BoundaryShape::BoundaryShape(const CurvedMesh& mesh, const BoundaryRules& rules)
     const auto& entities = topology.data().node_entities;
     for (std::size_t node = 0; node < entities.size(); ++node)
         if (entities[node].dimension == 0) is_point_[node] = 1;
-    for (const Index node : topology.interior_nodes()) freedom_[node] = topology.dimension();
-    for (const Index node : topology.boundary_nodes())
-        if (modes.nodes[node] == BoundaryMode::free) {
-            freedom_[node] = topology.dimension();
-            ++free_nodes_;
-        }
+    for (Index node = 0; node < topology.node_count(); ++node) {
+        const bool is_geometry = topology.is_boundary_node(node) || topology.is_interface_node(node);
+        if (!is_geometry && !topology.is_interior_node(node)) continue;  // of no element
+        if (modes.nodes[node] == BoundaryMode::free) freedom_[node] = topology.dimension();
+        if (is_geometry && modes.nodes[node] == BoundaryMode::free) ++free_nodes_;
+    }
 
-    const auto& facets = topology.boundary_facets();
+    const std::vector<Facet> facets = geometry_facets(topology);
+    facet_count_ = facets.size();
     if (topology.dimension() == 2) {
         std::vector<std::vector<Index>> lines;
         std::vector<std::array<int, 2>> labels;
@@ -76,7 +77,7 @@ BoundaryShape::BoundaryShape(const CurvedMesh& mesh, const BoundaryRules& rules)
         }
         add_curves(lines, labels, mesh, modes);
     } else {
-        add_surfaces(mesh, modes);
+        add_surfaces(mesh, facets, modes);
     }
     for (const Foot& foot : feet_) sliding_nodes_ += foot.piece >= 0 ? 1 : 0;
 }
@@ -149,9 +150,8 @@ void BoundaryShape::add_curves(const std::vector<std::vector<Index>>& lines,
         }
 }
 
-void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const BoundaryModes& modes) {
+void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const std::vector<Facet>& facets, const BoundaryModes& modes) {
     const MeshTopology& topology = *topology_;
-    const auto& facets = topology.boundary_facets();
     struct Side {
         int facet, edge;
     };
@@ -174,16 +174,25 @@ void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const BoundaryModes& mo
             edges[{std::min(nodes[0], nodes[1]), std::max(nodes[0], nodes[1])}].push_back({f, e});
         }
 
-    // Curves that a group names.
+    // Curves that a group names; those on no facet are curves of their own inside the domain.
     std::set<std::vector<Index>> named;
+    std::vector<std::vector<Index>> feature_lines;
     std::set<int> named_entities;
     for (const Entity& entity : topology.entities())
         if (entity.dimension == 1 && !entity.physical_tags.empty()) named_entities.insert(entity.tag);
     for (const ElementBlock& block : topology.blocks()) {
         if (block.type.shape != Shape::line || !named_entities.contains(block.entity_tag)) continue;
         const auto size = static_cast<std::ptrdiff_t>(node_count(block.type));
-        for (auto first = block.nodes.begin(); first != block.nodes.end(); first += size)
-            named.insert(sorted({first, first + size}));
+        for (auto first = block.nodes.begin(); first != block.nodes.end(); first += size) {
+            const std::vector<Index> line(first, first + size);
+            if (!named.insert(sorted(line)).second ||
+                edges.contains({std::min(line[0], line[1]), std::max(line[0], line[1])}))
+                continue;
+            const bool is_inside = std::all_of(line.begin(), line.end(), [&](Index node) {
+                return topology.is_interface_node(node) || topology.is_boundary_node(node);
+            });
+            if (is_inside) feature_lines.push_back(line);
+        }
     }
 
     const auto turns = [&](const Side& a, const Side& b) {
@@ -203,7 +212,6 @@ void BoundaryShape::add_surfaces(const CurvedMesh& mesh, const BoundaryModes& mo
         return false;
     };
     DisjointSets parts(facets.size());
-    std::vector<std::vector<Index>> feature_lines;
     std::vector<char> is_feature_node(is_point_);
     for (const auto& [key, sides] : edges) {
         const std::vector<Index> nodes = edge_nodes(sides[0]);
@@ -294,10 +302,8 @@ Eigen::Matrix<double, 3, Eigen::Dynamic> BoundaryShape::tangents(const Foot& foo
 }
 
 double BoundaryShape::largest_distance(const Coordinates& x) const {
-    const auto& facets = topology_->boundary_facets();
-    std::vector<double> largest(facets.size(), 0.0);  // squared
-    // In 2D and in 3D the facets are the first pieces.
-    parallel_for(facets.size(), 32, {}, {}, [&](std::size_t begin, std::size_t end) {
+    std::vector<double> largest(facet_count_, 0.0);  // squared
+    parallel_for(largest.size(), 32, {}, {}, [&](std::size_t begin, std::size_t end) {
         for (std::size_t f = begin; f < end; ++f) {
             const std::vector<Index>& nodes = piece_nodes_[f];
             if (std::all_of(nodes.begin(), nodes.end(), [&](Index n) { return x.row(n) == x_.row(n); })) continue;

@@ -18,20 +18,21 @@ struct Foot {
     Closest closest;
 };
 
-/// The boundary of a mesh as it was read, cut at its features into smooth parts, and what its nodes may do there.
+/// The boundary of a mesh and the interfaces inside it as they were read, cut at their features into smooth parts, and
+/// what their nodes may do there. Below, "boundary" means both.
 ///
 /// Features. 2D: facets that meet at more than the feature angle, facets of different entity or mode, and the points
-/// that the file calls points, are corners. 3D: facets meet in a feature edge where their normals turn by more than the
-/// angle, where they are of different entity or mode, and along curves that a group names; a node is a corner where
-/// such edges meet but for two that go on in each other's direction, and at points of the file. Tangents and normals
-/// are compared by the side to which the straight-sided facet turns, so that a facet that folds back on itself is no
-/// feature.
+/// that the file calls points, are corners, and so are those where other than two facets meet. 3D: facets meet in a
+/// feature edge where their normals turn by more than the angle, where they are of different entity or mode, and along
+/// curves that a group names; a node is a corner where such edges meet but for two that go on in each other's
+/// direction, and at points of the file. Tangents and normals are compared by the side to which the straight-sided
+/// facet turns, so that a facet that folds back on itself is no feature.
 class BoundaryShape {
   public:
     /// Throws like resolve.
     BoundaryShape(const CurvedMesh& mesh, const BoundaryRules& rules);
 
-    /// Whether a node may move: interior nodes, free ones, and sliding ones that are not corners.
+    /// Whether a node may move: interior nodes on no interface, free ones, and sliding ones that are not corners.
     bool may_move(Index node) const { return freedom_[node] > 0; }
     /// Directions a sliding node has: 1 along a curve, 2 on a surface; 0 for nodes that do not slide.
     int sliding_directions(Index node) const { return slides(node) ? freedom_[node] : 0; }
@@ -57,7 +58,7 @@ class BoundaryShape {
     double largest_distance(const Coordinates& x) const;
 
   private:
-    void add_surfaces(const CurvedMesh& mesh, const BoundaryModes& modes);
+    void add_surfaces(const CurvedMesh& mesh, const std::vector<Facet>& facets, const BoundaryModes& modes);
     void add_curves(const std::vector<std::vector<Index>>& lines, const std::vector<std::array<int, 2>>& labels,
                     const CurvedMesh& mesh, const BoundaryModes& modes);
     int add_piece(ElementType type, const std::vector<Index>& nodes, const Coordinates& x);
@@ -65,8 +66,9 @@ class BoundaryShape {
     void connect(int first, const std::vector<int>& parts, const std::vector<char>& is_corner);
 
     std::shared_ptr<const MeshTopology> topology_;
-    Coordinates x_;  ///< as read
-    double cosine_;  ///< of the feature angle
+    std::size_t facet_count_ = 0;  ///< of the boundary and of interfaces; they are the first pieces
+    Coordinates x_;                ///< as read
+    double cosine_;                ///< of the feature angle
     std::vector<BoundaryPiece> pieces_;
     std::vector<std::vector<Index>> piece_nodes_;
     std::vector<std::vector<int>> neighbours_;

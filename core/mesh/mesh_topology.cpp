@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -12,15 +13,41 @@
 namespace curvewright {
 namespace {
 
-/// A facet's sorted corner nodes (unused places -1): the key by which the elements on its two sides meet.
-struct FacetKey {
-    std::array<Index, 4> corners;
-    Facet facet;
-};
-
 std::vector<Index> sorted(std::vector<Index> nodes) {
     std::sort(nodes.begin(), nodes.end());
     return nodes;
+}
+
+using Corners = std::array<Index, 4>;
+
+/// The first `count` of the nodes, sorted, as a key.
+Corners corner_key(const Index* nodes, int count) {
+    Corners corners{-1, -1, -1, -1};
+    std::copy_n(nodes, count, corners.begin());
+    std::sort(corners.begin(), corners.end());
+    return corners;
+}
+
+bool is_before(const Facet& a, const Facet& b) {
+    return std::pair(a.element, a.local) < std::pair(b.element, b.local);
+}
+
+/// Per block a number that blocks share if their entities are in the same physical groups (none is a set, too).
+std::vector<int> regions_of_blocks(const MeshData& data) {
+    std::map<std::pair<int, int>, std::vector<int>> groups_of;
+    for (const Entity& entity : data.entities) {
+        std::vector<int> tags = entity.physical_tags;
+        std::sort(tags.begin(), tags.end());
+        groups_of.emplace(std::pair(entity.dimension, entity.tag), std::move(tags));
+    }
+    std::map<std::vector<int>, int> numbers;
+    std::vector<int> regions;
+    for (const ElementBlock& block : data.blocks) {
+        const auto found = groups_of.find({curvewright::dimension(block.type.shape), block.entity_tag});
+        const std::vector<int>& groups = found == groups_of.end() ? std::vector<int>() : found->second;
+        regions.push_back(numbers.try_emplace(groups, static_cast<int>(numbers.size())).first->second);
+    }
+    return regions;
 }
 
 }  // namespace
@@ -28,7 +55,9 @@ std::vector<Index> sorted(std::vector<Index> nodes) {
 MeshTopology::MeshTopology(MeshData data) : data_(std::move(data)) {
     check_nodes_and_blocks();
     number_elements();
-    find_boundary();
+    const std::vector<FacetKey> keys = facet_keys();
+    find_boundary(keys);
+    find_interfaces(keys);
 }
 
 void MeshTopology::check_nodes_and_blocks() {
@@ -99,7 +128,7 @@ void MeshTopology::number_elements() {
                 fmt::format("Element {} occurs twice; element tags must be unique.", element_tag(element).value));
 }
 
-void MeshTopology::find_boundary() {
+std::vector<MeshTopology::FacetKey> MeshTopology::facet_keys() const {
     std::vector<FacetKey> keys;
     for (Index element = 0; element < element_count(); ++element) {
         const auto nodes = element_nodes(element);
@@ -113,6 +142,10 @@ void MeshTopology::find_boundary() {
         }
     }
     std::sort(keys.begin(), keys.end(), [](const FacetKey& a, const FacetKey& b) { return a.corners < b.corners; });
+    return keys;
+}
+
+void MeshTopology::find_boundary(const std::vector<FacetKey>& keys) {
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
@@ -126,9 +159,7 @@ void MeshTopology::find_boundary() {
         for (std::size_t k = i; k < end && !meet; ++k) boundary_facets_.push_back(keys[k].facet);
         i = end;
     }
-    std::sort(boundary_facets_.begin(), boundary_facets_.end(), [](const Facet& a, const Facet& b) {
-        return std::pair(a.element, a.local) < std::pair(b.element, b.local);
-    });
+    std::sort(boundary_facets_.begin(), boundary_facets_.end(), is_before);
 
     role_.assign(static_cast<std::size_t>(node_count()), Role::unused);
     for (Index element = 0; element < element_count(); ++element)
@@ -138,6 +169,66 @@ void MeshTopology::find_boundary() {
     for (Index node = 0; node < node_count(); ++node) {
         if (role_[node] == Role::boundary) boundary_nodes_.push_back(node);
         if (role_[node] == Role::interior) interior_nodes_.push_back(node);
+    }
+}
+
+void MeshTopology::find_interfaces(const std::vector<FacetKey>& keys) {
+    is_interface_node_.assign(static_cast<std::size_t>(node_count()), 0);
+    const std::vector<int> regions = regions_of_blocks(data_);
+    std::vector<Corners> stored;  // cells of the facets' dimension
+    std::set<std::pair<int, int>> named;
+    for (const Entity& entity : data_.entities)
+        if (!entity.physical_tags.empty()) named.emplace(entity.dimension, entity.tag);
+    for (const ElementBlock& block : data_.blocks) {
+        const int dim = curvewright::dimension(block.type.shape);
+        if (dim >= dimension_) continue;
+        const auto per_cell = static_cast<std::size_t>(curvewright::node_count(block.type));
+        if (dim == dimension_ - 1) {
+            for (std::size_t first = 0; first < block.nodes.size(); first += per_cell)
+                stored.push_back(corner_key(block.nodes.data() + first, corner_count(block.type.shape)));
+        } else if (named.contains({dim, block.entity_tag})) {
+            for (const Index node : block.nodes) is_interface_node_[node] = 1;
+        }
+    }
+    std::sort(stored.begin(), stored.end());
+
+    struct Interface {
+        Facet facet;
+        Index neighbour;
+    };
+    std::vector<Interface> found;
+    std::vector<Facet> meeting;
+    auto cell = stored.begin();
+    for (std::size_t i = 0; i < keys.size();) {
+        std::size_t end = i + 1;
+        while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
+        while (cell != stored.end() && *cell < keys[i].corners) ++cell;
+        const bool has_cell = cell != stored.end() && *cell == keys[i].corners;
+        const auto region = [&](const FacetKey& key) { return regions[element_block_[key.facet.element]]; };
+        const bool differ = std::any_of(keys.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                                        keys.begin() + static_cast<std::ptrdiff_t>(end),
+                                        [&](const FacetKey& key) { return region(key) != region(keys[i]); });
+        const bool is_inside = end > i + 1 && !std::binary_search(boundary_facets_.begin(), boundary_facets_.end(),
+                                                                  keys[i].facet, is_before);
+        if (is_inside && (differ || has_cell)) {
+            meeting.clear();
+            for (; i < end; ++i) meeting.push_back(keys[i].facet);
+            std::sort(meeting.begin(), meeting.end(), is_before);
+            found.push_back({meeting[0], meeting[1].element});
+        }
+        i = end;
+    }
+    std::sort(found.begin(), found.end(),
+              [](const Interface& a, const Interface& b) { return is_before(a.facet, b.facet); });
+    for (const Interface& one : found) {
+        interface_facets_.push_back(one.facet);
+        interface_neighbours_.push_back(one.neighbour);
+    }
+    for (const Facet& facet : interface_facets_)
+        for (const Index node : facet_nodes(facet)) is_interface_node_[node] = 1;
+    for (Index node = 0; node < node_count(); ++node) {
+        if (!is_interior_node(node)) is_interface_node_[node] = 0;
+        if (is_interface_node_[node] != 0) interface_nodes_.push_back(node);
     }
 }
 

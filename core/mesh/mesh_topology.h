@@ -104,7 +104,8 @@ class MeshTopology {
     /// The type that all elements share; none if the mesh mixes types or is empty.
     std::optional<ElementType> uniform_type() const { return uniform_type_; }
 
-    /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the elements.
+    /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the
+    /// elements.
     const std::vector<Facet>& boundary_facets() const { return boundary_facets_; }
     /// Positions (in the element) to nodes: the facet's nodes in its own order.
     std::vector<Index> facet_nodes(Facet facet) const;
@@ -115,6 +116,19 @@ class MeshTopology {
     const std::vector<Index>& boundary_nodes() const { return boundary_nodes_; }
     const std::vector<Index>& interior_nodes() const { return interior_nodes_; }
 
+    /// Facets inside the domain that are geometry all the same: those whose elements on the two sides are in different
+    /// physical groups, and those on which the file has a cell (an element of a curve or surface). One of the pair (or
+    /// more) of coinciding facets each, that of the lowest element, in the order of the elements. Borders between
+    /// partitions are none.
+    const std::vector<Facet>& interface_facets() const { return interface_facets_; }
+    /// Per interface facet: the element on its other side (the lowest, if there are several).
+    const std::vector<Index>& interface_neighbours() const { return interface_neighbours_; }
+    /// Nodes inside the domain that are geometry: those of interface facets, and those of the cells of still lower
+    /// dimension (curves in 3D, points) that a physical group names. They are interior nodes, too.
+    bool is_interface_node(Index node) const { return is_interface_node_[node] != 0; }
+    /// Ascending.
+    const std::vector<Index>& interface_nodes() const { return interface_nodes_; }
+
     /// Nodes of the cells of every group of that name, ascending. "boundary" and "all_boundary" stand for all boundary
     /// nodes and "all" for all nodes, unless the file has a group of that name. None if there is no such group.
     std::optional<std::vector<Index>> find_group_nodes(std::string_view name) const;
@@ -123,10 +137,17 @@ class MeshTopology {
 
   private:
     enum class Role : char { unused, interior, boundary };
+    /// A facet's sorted corner nodes (unused places -1): the key by which the elements on its two sides meet.
+    struct FacetKey {
+        std::array<Index, 4> corners;
+        Facet facet;
+    };
 
     void check_nodes_and_blocks();
     void number_elements();
-    void find_boundary();
+    std::vector<FacetKey> facet_keys() const;
+    void find_boundary(const std::vector<FacetKey>& keys);
+    void find_interfaces(const std::vector<FacetKey>& keys);
 
     MeshData data_;
     std::unordered_map<NodeTag, Index> node_of_tag_;
@@ -139,6 +160,10 @@ class MeshTopology {
     std::vector<Facet> boundary_facets_;
     std::vector<Role> role_;
     std::vector<Index> boundary_nodes_, interior_nodes_;
+    std::vector<Facet> interface_facets_;
+    std::vector<Index> interface_neighbours_;
+    std::vector<char> is_interface_node_;
+    std::vector<Index> interface_nodes_;
 };
 
 }  // namespace curvewright

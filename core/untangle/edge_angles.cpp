@@ -52,7 +52,7 @@ std::vector<InteriorEdge> find_interior_edges(const MeshTopology& topology) {
         for (int e = 0; e < static_cast<int>(edges.size()); ++e) {
             std::vector<Index> inner;
             for (std::size_t i = 2; i < edges[e].nodes.size(); ++i) inner.push_back(nodes[edges[e].nodes[i]]);
-            if (inner.empty() || !topology.is_interior_node(inner[0])) continue;
+            if (inner.empty() || !topology.is_interior_node(inner[0]) || topology.is_interface_node(inner[0])) continue;
             const Index least = *std::min_element(inner.begin(), inner.end());
             const auto [entry, is_new] = of_node.try_emplace(least, found.size(), 0);
             auto& [place, uses] = entry->second;

@@ -86,7 +86,10 @@ class Untangler {
         result_.improve_seconds = improving.seconds();
     }
 
-    bool may_move(Index node) const { return boundary_ ? boundary_->may_move(node) : topology_.is_interior_node(node); }
+    bool may_move(Index node) const {
+        return boundary_ ? boundary_->may_move(node)
+                         : topology_.is_interior_node(node) && !topology_.is_interface_node(node);
+    }
     std::vector<ElementQuality> certify(const FreePatch& patch) const {
         return certify_elements(topology_, patch.elements, state_.coordinates, quality_options_, context_);
     }
@@ -410,6 +413,19 @@ class Untangler {
     };
 
     void list_unmended() {
+        list_not_valid();
+        if (result_.unmended.empty() || topology_.interface_nodes().empty()) return;
+        const auto names = names_of_interface_nodes(topology_);
+        for (UnmendedElement& unmended : result_.unmended) {
+            std::set<std::string> in_the_way;
+            for (const Index node : topology_.element_nodes(unmended.element))
+                if (const auto found = names.find(node); found != names.end() && !may_move(node))
+                    in_the_way.insert(found->second.begin(), found->second.end());
+            unmended.fixed_interfaces.assign(in_the_way.begin(), in_the_way.end());
+        }
+    }
+
+    void list_not_valid() {
         for (Index element = 0; element < topology_.element_count(); ++element) {
             const ElementQuality& quality = state_.qualities[element];
             if (is_valid(quality)) continue;

@@ -49,6 +49,9 @@ struct UnmendedElement {
     /// min J / max |J|, max |J| that of the element as it was given: if proved, no position of the nodes that may move
     /// has more; else the best that was reached (with max |J| that of the element as it is).
     double bound = 0.0;
+    /// Interfaces inside the domain that nodes of the element lie on and may not move along, by the names that boundary
+    /// rules have for them: what may be in the way.
+    std::vector<std::string> fixed_interfaces;
 };
 
 /// What untangle_guaranteed() returns.

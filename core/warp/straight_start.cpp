@@ -33,7 +33,9 @@ CurvedMesh straight_sided(const CurvedMesh& mesh) {
 }  // namespace
 
 WarpResult warp_from_straight(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
-    return warp(straight_sided(mesh), mesh.coordinates(), options, context);
+    WarpOptions with_interfaces = options;
+    for (const Index node : mesh.topology().interface_nodes()) with_interfaces.prescribed_nodes.push_back(node);
+    return warp(straight_sided(mesh), mesh.coordinates(), with_interfaces, context);
 }
 
 }  // namespace curvewright

@@ -6,7 +6,8 @@ namespace curvewright {
 
 /// Moves the interior nodes of a mesh whose boundary was curved, corners included, to where the weights of the
 /// straight-sided mesh on the same corners put them when its boundary moves to that of the given mesh. Where the
-/// interior nodes of the given mesh lie does not matter but for the corners. Boundary nodes stay bit for bit.
+/// interior nodes of the given mesh lie does not matter but for the corners. Nodes of the boundary and of interfaces
+/// stay bit for bit.
 ///
 /// With an untangling method that moves high-order nodes only it makes the combination that the thesis plans (4.4).
 /// Throws Unsupported (pyramids above order 1; see Warper), InvalidInput, SolverFailure, Cancelled.
