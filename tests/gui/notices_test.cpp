@@ -11,11 +11,13 @@
 #include <QSignalSpy>
 #include <QTableWidget>
 #include <QToolButton>
+#include <QTreeWidget>
 
 #include "core/io/mesh_io.h"
 #include "core/untangle/guaranteed.h"
 #include "tests/gui/drag_under_test.h"
 #include "tests/support/mesh_factory.h"
+#include "tests/support/region_meshes.h"
 #include "ui/document/message_log.h"
 #include "ui/document/notice_board.h"
 #include "ui/panels/banner.h"
@@ -194,6 +196,20 @@ class NoticesTest : public QObject {
         QVERIFY(!sliding_boundary(options, false));
     }
 
+    void interfaces_are_let_slide_by_name() {
+        GuaranteedOptions options;
+        QVERIFY(!sliding_interfaces(options, {}, true));
+        options.boundary.groups = {{"outer", BoundaryMode::slide}, {"skin", BoundaryMode::fixed}};
+        const auto action = sliding_interfaces(options, {"skin", "interfaces"}, true);
+        QVERIFY(action);
+        QCOMPARE(action_text(*action), QStringLiteral("Undo and let the interface slide"));
+        std::map<std::string, BoundaryMode> modes;
+        for (const BoundaryRules::Rule& rule : action->options->boundary.groups) modes[rule.group] = rule.mode;
+        QCOMPARE(modes.size(), std::size_t(3));
+        for (const auto& [name, mode] : modes) QVERIFY2(mode == BoundaryMode::slide, name.c_str());
+        QVERIFY(action->options->boundary.otherwise == BoundaryMode::fixed);
+    }
+
     void the_log_keeps_everything_once() {
         MessageLog log;
         QSignalSpy added(&log, &MessageLog::added), changed(&log, &MessageLog::last_changed);
@@ -286,6 +302,63 @@ class NoticesTest : public QObject {
                  untangle_guaranteed(*test.tangled, sliding).coordinates);
         QCOMPARE(test.window->document().history()->count(), steps);
         QCOMPARE(test.find<QComboBox>("boundary")->currentText(), QStringLiteral("Slides along itself"));
+    }
+
+    void an_interface_in_the_way_can_be_let_slide() {
+        WindowUnderTest test;
+        // The middle node of an edge of the interface folds it back at its end.
+        const CurvedMesh plain = with_regions(square_mesh(4, 2), InterfaceCells::none);
+        Coordinates x = plain.coordinates();
+        x(node_at(plain, 0.5, 0.375), 1) = 0.27;
+        const CurvedMesh folded = plain.with_coordinates(x);
+        const QString path = test.inputs.path(QStringLiteral("regions.msh"));
+        write_mesh(path.toStdString(), folded);
+        test.open(path);
+        QVERIFY(test.window->jobs().untangle(GuaranteedOptions()));
+        QVERIFY(test.wait_for_job());
+        auto* banner = test.find<Banner>("banner");
+        QVERIFY2(banner->text().contains(QStringLiteral("“interfaces”")), qPrintable(banner->text()));
+        auto* slide = test.find<QPushButton>("banner_action_2");
+        QVERIFY2(slide->text().endsWith(QStringLiteral("et the interface slide")), qPrintable(slide->text()));
+        QTest::mouseClick(slide, Qt::LeftButton);
+        QVERIFY(test.wait_for_job());
+        GuaranteedOptions options;
+        options.boundary.groups = {{"interfaces", BoundaryMode::slide}};
+        QCOMPARE(test.window->document().state().mesh->coordinates(), untangle_guaranteed(folded, options).coordinates);
+        QCOMPARE(test.window->document().state().quality->summary.invalid, 0);
+        QCOMPARE(test.window->document().history()->count(), 1);
+        // The panel has the rule, and undoing takes the mesh back to the file.
+        auto* groups = test.find<QTreeWidget>("boundary_groups");
+        QVERIFY(groups->isVisible());
+        for (int row = 0; row < groups->topLevelItemCount(); ++row) {
+            const QTreeWidgetItem* item = groups->topLevelItem(row);
+            QCOMPARE(item->text(1) == QStringLiteral("Slides"), item->text(0) == QStringLiteral("interfaces"));
+        }
+        QCOMPARE(groups->findItems(QStringLiteral("interfaces"), Qt::MatchExactly).size(), 1);
+    }
+
+    void interfaces_are_listed_and_can_be_selected() {
+        WindowUnderTest test;
+        for (const bool is_solid : {false, true})
+            for (const InterfaceCells cells : {InterfaceCells::none, InterfaceCells::named}) {
+                const CurvedMesh mesh = with_regions(is_solid ? cube_mesh(2, 2) : square_mesh(4, 2), cells);
+                const QString path = test.inputs.path(QStringLiteral("regions.msh"));
+                write_mesh(path.toStdString(), mesh);
+                test.open(path);
+                const QString name =
+                    cells == InterfaceCells::none ? QStringLiteral("interfaces") : QStringLiteral("interface");
+                auto* groups = test.find<QTreeWidget>("groups");
+                const auto rows = groups->findItems(name, Qt::MatchExactly);
+                QCOMPARE(rows.size(), 1);
+                const MeshTopology& topology = test.window->document().state().mesh->topology();
+                const GroupLine& line = test.window->document().groups()[groups->indexOfTopLevelItem(rows[0])];
+                QCOMPARE(line.nodes, topology.interface_nodes());
+                // The elements on both sides.
+                QCOMPARE(line.elements.size(), 2 * topology.interface_facets().size());
+                emit groups->itemClicked(rows[0], 0);
+                QCOMPARE(test.window->edit().nodes(), topology.interface_nodes());
+                QCOMPARE(test.find<QTreeWidget>("boundary_groups")->findItems(name, Qt::MatchExactly).size(), 1);
+            }
     }
 
     void a_job_that_moves_nothing_is_no_step() {

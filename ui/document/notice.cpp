@@ -32,6 +32,8 @@ QString action_text(const NoticeAction& action) {
             return action.items.size() == 1 ? tr("Select it") : tr("Select them");
         case NoticeCommand::slide_boundary:
             return action.undoes ? tr("Undo and let the boundary slide") : tr("Let the boundary slide");
+        case NoticeCommand::slide_interface:
+            return action.undoes ? tr("Undo and let the interface slide") : tr("Let the interface slide");
         case NoticeCommand::flip:
             return tr("Flip");
         case NoticeCommand::open_file:
@@ -48,6 +50,8 @@ QString action_tip(const NoticeAction& action) {
             return tr("Selects the nodes and brings them into view.");
         case NoticeCommand::slide_boundary:
             return tr("Untangles again with the boundary sliding along itself; corners and feature edges stay.");
+        case NoticeCommand::slide_interface:
+            return tr("Untangles again with the interface inside the domain sliding along itself; its shape stays.");
         case NoticeCommand::flip:
             return tr("Numbers every element the other way round, as a step that can be undone.");
         case NoticeCommand::open_file:
@@ -80,6 +84,20 @@ std::optional<NoticeAction> sliding_boundary(const GuaranteedOptions& options, b
     action.options = options;
     action.options->boundary = rules;
     action.undoes = undoes;
+    return action;
+}
+
+std::optional<NoticeAction> sliding_interfaces(const GuaranteedOptions& options, const std::set<std::string>& names,
+                                               bool undoes) {
+    if (names.empty()) return std::nullopt;
+    NoticeAction action{NoticeCommand::slide_interface};
+    action.options = options;
+    action.undoes = undoes;
+    std::vector<BoundaryRules::Rule>& rules = action.options->boundary.groups;
+    for (const std::string& name : names) {
+        std::erase_if(rules, [&](const BoundaryRules::Rule& rule) { return rule.group == name; });
+        rules.push_back({name, BoundaryMode::slide});
+    }
     return action;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <QString>
@@ -31,7 +33,8 @@ enum class NoticeLife {
 enum class NoticeCommand {
     select_elements,
     select_nodes,
-    slide_boundary,  ///< untangle with NoticeAction::options, which let it slide
+    slide_boundary,   ///< untangle with NoticeAction::options, which let it slide
+    slide_interface,  ///< the same for an interface inside the domain
     flip,
     open_file,
 };
@@ -66,5 +69,9 @@ NoticeAction selecting_nodes(std::vector<Index> nodes);
 /// A button that untangles again with the boundary sliding where it was fixed; none if nothing of it was. undoes: what
 /// was reached is undone first.
 std::optional<NoticeAction> sliding_boundary(const GuaranteedOptions& options, bool undoes);
+
+/// The same for interfaces inside the domain, by the names that boundary rules have for them; none if there are none.
+std::optional<NoticeAction> sliding_interfaces(const GuaranteedOptions& options, const std::set<std::string>& names,
+                                               bool undoes);
 
 }  // namespace curvewright

@@ -1,5 +1,8 @@
 #include "ui/jobs/untangling.h"
 
+#include <set>
+#include <string>
+
 #include <QCoreApplication>
 #include <QStringList>
 
@@ -53,8 +56,18 @@ Notice unmended_notice(const GuaranteedResult& result, const GuaranteedOptions& 
                                    .arg(format_count(static_cast<long long>(elements.size())))
                              : describe_unmended(result.unmended, topology) + QLatin1Char(' ') + advice;
     Notice notice{NoticeSeverity::warning, text, {selecting_elements(std::move(elements))}};
-    if (result.reason != StopReason::cancelled)
-        if (auto slide = sliding_boundary(options, true)) notice.actions.push_back(std::move(*slide));
+    if (result.reason == StopReason::cancelled) return notice;
+    std::set<std::string> interfaces;
+    for (const UnmendedElement& its : result.unmended)
+        interfaces.insert(its.fixed_interfaces.begin(), its.fixed_interfaces.end());
+    if (!interfaces.empty()) {
+        QStringList names;
+        for (const std::string& name : interfaces) names << QStringLiteral("“%1”").arg(QString::fromStdString(name));
+        notice.text += QLatin1Char(' ') +
+                       tr("What stays inside the domain may be in the way: %1.").arg(names.join(QStringLiteral(", ")));
+    }
+    for (auto& slide : {sliding_interfaces(options, interfaces, true), sliding_boundary(options, true)})
+        if (slide) notice.actions.push_back(*slide);
     return notice;
 }
 

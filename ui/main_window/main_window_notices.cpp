@@ -79,6 +79,7 @@ void MainWindow::act_on(int notice, int place) {
     if (action.undoes) document_.history()->undo();
     switch (action.command) {
         case NoticeCommand::slide_boundary:
+        case NoticeCommand::slide_interface:
             untangle_panel_->show_options(*action.options);
             show_tab(QStringLiteral("untangle"));
             jobs_.untangle(*action.options);
