@@ -21,6 +21,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS CommonCore CommonDataModel CommonExecut
 
 if(CURVEWRIGHT_BUILD_TESTS)
     find_package(GTest REQUIRED)
+    find_package(VTK 9.1 REQUIRED COMPONENTS FiltersVerdict)
     if(CURVEWRIGHT_BUILD_DESKTOP)
         find_package(Qt6 6.4 REQUIRED COMPONENTS Test)
     endif()

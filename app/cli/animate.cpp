@@ -107,7 +107,7 @@ std::uintmax_t write_animation(const Options& options, MeshScene& scene, FrameSo
 /// The way of a warp. certified with the orientation that the mesh has at its start.
 std::unique_ptr<FrameSource> film_of_warp(const CurvedMesh& mesh, const Options& options, Work& work) {
     auto deformation = std::make_shared<const Deformation>(read_deformation(options.deformation, work.context()));
-    std::optional<double> sign;
+    std::optional<OrientationSigns> sign;
     if (is_assessable(mesh)) sign = certify(mesh, work).orientation_sign;
     WarpOptions warp_options = options.warp;
     warp_options.prescribed_nodes = prescribed_interior_nodes(mesh, *deformation);

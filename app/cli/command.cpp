@@ -40,6 +40,14 @@ void add_output_options(CLI::App& command, OutputOptions& options, bool is_posit
 
 void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder) {
     command.add_option("mesh", input.file, "Mesh (.msh, .msh.gz, .vtu, .vtk)")->required()->type_name(placeholder);
+    command
+        .add_option("--merge-nodes", input.merge_tolerance,
+                    "Merge nodes that are closer than T times the mesh's size (default: only where every cell has its "
+                    "own nodes)")
+        ->check(CLI::Range(0.0, 0.5))
+        ->type_name("T");
+    command.add_flag("--reorient", input.reorients,
+                     "Renumber elements that run against their neighbours, and parts that are clockwise, first");
 }
 
 int run_command(const std::function<int(Work&)>& run, const Invocation& invocation, const TaskContext& context) {

@@ -34,12 +34,17 @@ struct CommonOptions {
 /// What the user asked for: filled by the options of the chosen command; action runs it and gives the exit status.
 struct Invocation {
     CommonOptions common;
+    /// What files record of it (see recorded_command.h).
+    std::string command;
     std::function<int(const Invocation&, const TaskContext&)> action;
 };
 
 /// Input mesh.
 struct InputOptions {
     std::filesystem::path file;
+    /// Nodes closer than that are merged, relative to the mesh's size. Not given: only where no elements touch.
+    std::optional<double> merge_tolerance;
+    bool reorients = false;  ///< --reorient
 };
 
 /// Output file and its format.
@@ -56,7 +61,7 @@ CLI::App* add_command(CLI::App& app, Invocation& invocation, const std::string& 
 /// Adds -o/--output (or a positional, for convert), --format and --binary.
 void add_output_options(CLI::App& command, OutputOptions& options, bool is_positional = false);
 
-/// Adds the input mesh, a required positional.
+/// Adds the input mesh, a required positional, and --reorient.
 void add_input_option(CLI::App& command, InputOptions& input, const std::string& placeholder = "IN");
 /// Adds --deformation, required.
 void add_deformation_option(CLI::App& command, std::filesystem::path& file);
@@ -84,7 +89,9 @@ void add_elevate(CLI::App& app, Invocation& invocation);
 void add_deform(CLI::App& app, Invocation& invocation);
 void add_warp(CLI::App& app, Invocation& invocation);
 void add_untangle(CLI::App& app, Invocation& invocation);
+void add_improve(CLI::App& app, Invocation& invocation);
 void add_convert(CLI::App& app, Invocation& invocation);
+void add_compare(CLI::App& app, Invocation& invocation);
 void add_render(CLI::App& app, Invocation& invocation);
 void add_replay(CLI::App& app, Invocation& invocation);
 void add_animate(CLI::App& app, Invocation& invocation);

@@ -14,6 +14,7 @@ struct Options {
     std::vector<std::filesystem::path> meshes;
     std::filesystem::path output;
     std::vector<std::string> titles;
+    bool reorients = false;
 };
 
 int run(const Options& options, Work& work) {
@@ -23,11 +24,12 @@ int run(const Options& options, Work& work) {
     std::vector<HistogramPanel> panels;
     for (std::size_t i = 0; i < options.meshes.size(); ++i) {
         const std::filesystem::path& file = options.meshes[i];
-        const CurvedMesh mesh = read_input({file}, work).mesh;
+        const CurvedMesh mesh = read_input({file, options.reorients}, work).mesh;
         const QualityReport report = certify(mesh, work);
         const HistogramPanel& panel =
             panels.emplace_back(HistogramPanel{options.titles.empty() ? file.filename().string() : options.titles[i],
                                                report.summary, make_report_histogram(report)});
+        note_assessment(mesh.topology(), report, work);
         states.push_back({{"mesh", mesh_json(file, mesh)},
                           {"scaled_jacobian", summary_json(report.summary)},
                           {"histogram",
@@ -54,6 +56,8 @@ void add_histogram(CLI::App& app, Invocation& invocation) {
         ->required()
         ->type_name("MESH");
     command->add_option("-o,--output", options->output, "Picture to write")->required()->type_name("SVG");
+    command->add_flag("--reorient", options->reorients,
+                      "Renumber elements that run against their neighbours, and parts that are clockwise, first");
     command
         ->add_option("--title", options->titles, "What stands over a histogram, one for each mesh (default: its name)")
         ->allow_extra_args(false)

@@ -52,6 +52,7 @@ int run(const InputOptions& options, Work& work) {
                           {"components", field.components},
                           {"range", range ? Json{range->first, range->second} : Json()}});
     }
+    note_winding(topology, work);
     if (work.is_json()) {
         const Json json = {
             {"mesh", mesh_json(file, mesh)},
@@ -60,7 +61,10 @@ int run(const InputOptions& options, Work& work) {
             {"groups", groups},
             {"arrays", arrays},
             {"entities", topology.entities().size()},
+            {"periodic", topology.data().periodic.size()},
+            {"partitions", topology.data().partitioning.count},
             {"orientation", orientation},
+            {"reversed", topology.reversed_count()},
             {"bounding_box", {{box(0, 0), box(0, 1), box(0, 2)}, {box(1, 0), box(1, 1), box(1, 2)}}},
         };
         work.print(json);
@@ -70,12 +74,18 @@ int run(const InputOptions& options, Work& work) {
     fmt::print("  {}D, order {}: {}\n", topology.dimension(), topology.order(), mesh_line(mesh));
     for (const auto& [type, count] : types.items()) fmt::print("  cells        {} {}\n", count.get<long>(), type);
     fmt::print("  orientation  {}\n", orientation);
+    if (topology.reversed_count() > 0) fmt::print("  reversed     {} elements\n", topology.reversed_count());
     fmt::print("  box          [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}] x [{:.6g}, {:.6g}]\n", box(0, 0), box(1, 0),
                box(0, 1), box(1, 1), box(0, 2), box(1, 2));
     for (const Json& group : groups)
         fmt::print("  group        {} (dimension {}, tag {}): {} cells, {} nodes\n",
                    group["used_as"].get<std::string>(), group["dimension"].get<int>(), group["tag"].get<int>(),
                    group["cells"].get<long>(), group["nodes"].get<std::size_t>());
+    for (const PeriodicLink& link : topology.data().periodic)
+        fmt::print("  periodic     entity {} of dimension {} is a copy of {}: {} nodes\n", link.tag, link.dimension,
+                   link.master_tag, link.nodes.size());
+    if (const int partitions = topology.data().partitioning.count; partitions > 0)
+        fmt::print("  partitions   {}\n", partitions);
     for (const Json& array : arrays)
         fmt::print("  array        {} on {}: {}, {}\n", array["name"].get<std::string>(),
                    array["on"].get<std::string>(),

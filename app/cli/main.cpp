@@ -7,6 +7,7 @@
 
 #include "app/cli/command.h"
 #include "app/cli/progress.h"
+#include "app/cli/recorded_command.h"
 #include "core/base/error.h"
 #include "core/base/parallel.h"
 
@@ -49,12 +50,15 @@ int main(int argc, char** argv) {
     add_deform(app, invocation);
     add_warp(app, invocation);
     add_untangle(app, invocation);
+    add_improve(app, invocation);
     add_convert(app, invocation);
+    add_compare(app, invocation);
     add_render(app, invocation);
     add_replay(app, invocation);
     add_animate(app, invocation);
     try {
         app.parse(argc, argv);
+        invocation.command = recorded_command(*app.get_subcommands().front());
     } catch (const CLI::ParseError& error) {
         // Help and version end with 0; CLI11's own numbers for the rest are not ours.
         return app.exit(error) == 0 ? exit_done : exit_wrong_usage;

@@ -12,7 +12,7 @@ namespace curvewright::cli {
 
 /// "mesh": file, dimension, order, elements, nodes, interior_nodes.
 Json mesh_json(const std::filesystem::path& file, const CurvedMesh& mesh);
-/// "scaled_jacobian": min, mean, max, valid, invalid, undecided.
+/// "scaled_jacobian": min, mean, max (null if nothing was assessed), valid, invalid, undecided, not_assessed, reversed.
 Json summary_json(const QualitySummary& summary);
 /// "worst": at most 10 of element (tag), scaled_jacobian, center.
 Json worst_json(const CurvedMesh& mesh, const QualityReport& report);
@@ -22,7 +22,8 @@ std::string mesh_line(const CurvedMesh& mesh);
 /// "min −0.222, mean 0.634, max 1.000; 28 valid, 2 invalid, 0 undecided" in ASCII.
 std::string summary_line(const QualitySummary& summary);
 
-/// Reads a mesh and notes what its reader has to say. Timed as "read".
+/// Reads a mesh, merges its coincident nodes as asked (read_matched_mesh) and notes what there is to say of it. Timed
+/// as "read".
 ReadResult read_input(const InputOptions& input, Work& work);
 /// assess_quality, timed as "certify".
 QualityReport certify(const CurvedMesh& mesh, Work& work, const QualityOptions& options = {});
@@ -54,11 +55,16 @@ void check_output(const OutputOptions& output);
 void write_output(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
                   const QualityReport* quality, const Coordinates* reference, Work& work);
 /// What commands do whose result is a mesh and nothing else: certify where it belongs in the file, write, say so.
+/// more: what --json has besides the mesh; an object.
 void write_and_report(const OutputOptions& output, const CurvedMesh& mesh, const std::vector<FieldArray>& fields,
-                      Work& work);
-/// Notes that the mesh is numbered clockwise or mixed, if it is.
-void note_orientation(const QualityReport& report, Work& work);
+                      Work& work, const Json& more = Json::object());
+/// Notes how many elements are reversed and what is one-sided, if there are such.
+void note_winding(const MeshTopology& topology, Work& work);
+/// note_winding; notes, too, that the mesh or parts of it are numbered clockwise and what was not assessed.
+void note_assessment(const MeshTopology& topology, const QualityReport& report, Work& work);
 /// The status that validity decides: exit_done, or exit_not_valid if elements are invalid or undecided.
 int validity_status(const QualitySummary& summary);
+/// The one of two statuses of a command that got done that says more: not valid before less than asked before done.
+int worse_status(int a, int b);
 
 }  // namespace curvewright::cli

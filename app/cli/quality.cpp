@@ -1,6 +1,10 @@
+#include <algorithm>
+#include <optional>
+
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "core/io/atomic_file.h"
 
@@ -11,6 +15,7 @@ struct Options {
     InputOptions input;
     std::filesystem::path csv;
     QualityOptions quality;
+    std::optional<double> least;  ///< that every element has to have
 };
 
 std::string to_csv(const CurvedMesh& mesh, const QualityReport& report) {
@@ -23,22 +28,39 @@ std::string to_csv(const CurvedMesh& mesh, const QualityReport& report) {
     return text;
 }
 
+/// Notes how many elements are below the least quality asked for; the status.
+int note_least(const Options& options, const QualityReport& report, Work& work) {
+    const int validity = validity_status(report.summary);
+    if (!options.least) return validity;
+    const auto below =
+        std::count_if(report.elements.begin(), report.elements.end(),
+                      [&](const ElementQuality& quality) { return quality.scaled_jacobian < *options.least; });
+    if (below == 0) return validity;
+    work.note(fmt::format("{} of {} elements {} below {:g}; the least scaled Jacobian is {:.4g}.", below,
+                          report.elements.size(), below == 1 ? "is" : "are", *options.least, report.summary.min));
+    return exit_not_valid;
+}
+
 int run(const Options& options, Work& work) {
     const CurvedMesh mesh = read_input(options.input, work).mesh;
     const QualityReport report = certify(mesh, work, options.quality);
-    note_orientation(report, work);
+    note_assessment(mesh.topology(), report, work);
+    const GlobalCheck global(mesh, report, work);
     if (!options.csv.empty()) {
         write_text_file(options.csv, to_csv(mesh, report));
         work.end_phase("write");
     }
+    const int status = note_least(options, report, work);
     if (work.is_json()) {
-        const Json json = {{"mesh", mesh_json(options.input.file, mesh)},
-                           {"orientation", to_string(report.orientation)},
-                           {"scaled_jacobian", summary_json(report.summary)},
-                           {"worst", worst_json(mesh, report)}};
+        Json json = {{"mesh", mesh_json(options.input.file, mesh)},
+                     {"orientation", to_string(report.orientation)},
+                     {"scaled_jacobian", summary_json(report.summary)},
+                     {"worst", worst_json(mesh, report)}};
+        global.add_to(json, mesh);
         work.print(json);
     } else {
-        fmt::print("{}: {}\n{}\n", options.input.file.string(), mesh_line(mesh), summary_line(report.summary));
+        fmt::print("{}: {}\n{}\n{}\n", options.input.file.string(), mesh_line(mesh), summary_line(report.summary),
+                   global.line());
         for (Index element : report.worst(10)) {
             const ElementQuality& q = report.elements[element];
             const auto center = mesh.element_center(element);
@@ -47,7 +69,7 @@ int run(const Options& options, Work& work) {
                        center[1], center[2]);
         }
     }
-    return validity_status(report.summary);
+    return worse_status(status, global.status());
 }
 
 }  // namespace
@@ -60,6 +82,12 @@ void add_quality(CLI::App& app, Invocation& invocation) {
     command->add_option("--tolerance", options->quality.tolerance, "Width of the bounds of J, relative to max |J|")
         ->capture_default_str()
         ->check(CLI::PositiveNumber);
+    command
+        ->add_option_function<double>(
+            "--min", [options](const double& least) { options->least = least; },
+            "End with status 3 if an element's scaled Jacobian is below this")
+        ->type_name("Q")
+        ->check(CLI::Range(-1e300, 1.0));
     set_action(*command, invocation, options, run);
 }
 

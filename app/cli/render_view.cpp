@@ -122,7 +122,8 @@ std::vector<Index> choose_elements(const ElementChoice& choice, const CurvedMesh
         return elements;
     }
     for (Index element = 0; element < mesh.topology().element_count(); ++element)
-        if (quality->elements[static_cast<std::size_t>(element)].validity != Validity::valid)
+        if (const Validity validity = quality->elements[static_cast<std::size_t>(element)].validity;
+            validity == Validity::invalid || validity == Validity::undecided)
             elements.push_back(element);
     if (elements.empty()) throw InvalidInput("No element is tangled; \"worst\" names the worst one.");
     return elements;

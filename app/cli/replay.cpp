@@ -1,11 +1,13 @@
 #include "core/session/replay.h"
 
+#include <algorithm>
 #include <iostream>
 #include <iterator>
 
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "core/session/session_file.h"
 
@@ -34,8 +36,11 @@ int run(const Options& options, Work& work) {
         replay.perform(actions[i], {work.context().stop, {}});
     }
     work.end_phase("replay");
+    for (const std::string& note : replay.notes()) work.note(note);
     const Assessment before = assess(replay.opened(), work);
     const Assessment quality = assess_result(replay.mesh(), before, work);
+    work.set_input(replay.mesh_file());
+    const auto global = check_globally(replay.mesh(), quality, work);
     if (writes)
         write_output(options.output, replay.mesh(), replay.fields(), quality.report ? &*quality.report : nullptr,
                      &replay.opened().coordinates(), work);
@@ -45,13 +50,16 @@ int run(const Options& options, Work& work) {
         add_assessment(json, quality);
         add_assessment(json["before"], before);
         json["worst"] = quality.report ? worst_json(replay.mesh(), *quality.report) : Json::array();
+        if (global) global->add_to(json, replay.mesh());
         work.print(json);
     } else {
         fmt::print("{}: {}\n", file.string(), mesh_line(replay.mesh()));
         fmt::print("{} {} replayed\n", actions.size(), actions.size() == 1 ? "action" : "actions");
         if (quality.report) fmt::print("{}\n", summary_line(quality.report->summary));
+        if (global) fmt::print("{}\n", global->line());
     }
-    return quality.report ? validity_status(quality.report->summary) : exit_done;
+    if (!quality.report) return exit_done;
+    return worse_status(validity_status(quality.report->summary), global->status());
 }
 
 }  // namespace

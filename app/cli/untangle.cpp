@@ -7,7 +7,10 @@
 #include <fmt/ranges.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
+#include "app/cli/node_options.h"
 #include "app/cli/output.h"
+#include "app/cli/target.h"
 #include "app/cli/untangle_outcome.h"
 #include "app/cli/untangle_report.h"
 #include "core/base/error.h"
@@ -35,23 +38,35 @@ struct Options {
     int max_passes = 0;       ///< 0 = the method's own
     std::optional<Weighting> warp_first;
     GuaranteedOptions guaranteed;
+    bool has_target = false;
     std::vector<std::string> boundary;  ///< rules as given
+    NodeArguments nodes;
+    bool keeps_best = false;
 
-    UntangleOptions of_method() const;
+    UntangleOptions of_method(const MeshTopology& topology) const;
 };
 
-UntangleOptions Options::of_method() const {
+/// What all methods take.
+template <class MethodOptions>
+MethodOptions with_common(MethodOptions its, const Options& options, const MeshTopology& topology) {
+    its.nodes = options.nodes.rules(topology);
+    its.keeps_best_on_cancel = options.keeps_best;
+    return its;
+}
+
+UntangleOptions Options::of_method(const MeshTopology& topology) const {
     if (method == guaranteed_method) {
-        GuaranteedOptions options = guaranteed;
+        GuaranteedOptions options = with_common(guaranteed, *this, topology);
         for (const std::string& rule : boundary) options.boundary.add(rule);
         return options;
     }
     if (method == signed_method) {
-        SignedAngleOptions options = signed_angles;
+        SignedAngleOptions options = with_common(signed_angles, *this, topology);
         if (max_passes > 0) options.max_passes = max_passes;
         return options;
     }
-    UnsignedAngleOptions options = is_literal ? UnsignedAngleOptions::literal() : UnsignedAngleOptions();
+    UnsignedAngleOptions options =
+        with_common(is_literal ? UnsignedAngleOptions::literal() : UnsignedAngleOptions(), *this, topology);
     if (max_passes > 0) options.max_passes = max_passes;
     return options;
 }
@@ -97,23 +112,53 @@ std::vector<std::filesystem::path> report_neighbours(const Options& options) {
     return files;
 }
 
+/// What became of a mesh that was valid.
+void note_unchanged(const Target& target, const TargetOutcome& outcome, Work& work) {
+    if (!target.is_explicit)
+        work.note("No element is tangled; nothing was changed. `improve` raises the quality of a valid mesh.");
+    else if (outcome.is_reached())
+        work.note(
+            fmt::format("No element is tangled, and all reach the target {:g}; nothing was changed.", target.value));
+    else
+        work.note(
+            fmt::format("No element is tangled; nothing was changed. {} below the target {:g} (the least is "
+                        "{:.4g}); `improve --target {:g}` raises the quality of a valid mesh.",
+                        outcome.below == 1 ? "1 element is" : fmt::format("{} elements are", outcome.below),
+                        target.value, outcome.least, target.value));
+}
+
+/// Notes how the result stands to the target, if it is valid; the status that follows.
+int note_outcome(const Options& options, bool was_valid, const QualityReport& after, Work& work) {
+    const int validity = validity_status(after.summary);
+    const Target target{options.guaranteed.target, options.has_target};
+    const TargetOutcome outcome = compare(target, scaled_jacobians(after));
+    if (was_valid) {
+        note_unchanged(target, outcome, work);
+        return target.is_explicit && !outcome.is_reached() ? exit_less_than_asked : validity;
+    }
+    const bool has_target = options.method == guaranteed_method && options.guaranteed.improves;
+    return validity != exit_done || !has_target ? validity : note_target(target, outcome, work);
+}
+
 int run(const Options& options, Work& work) {
     check_output(options.output);
     if (options.has_report) check_report_folder(options.report, report_neighbours(options));
     const ReadResult read = read_input(options.input, work);
     const CurvedMesh& input = read.mesh;
     const QualityReport before = certify(input, work);
-    note_orientation(before, work);
+    note_assessment(input.topology(), before, work);
     std::optional<TraceFile> trace;
     ConvergenceLog log;
     ObserverFan observers;
     if (!options.trace.empty()) observers.add(trace.emplace(options.trace).observer());
     if (options.has_report) observers.add(&log);
 
-    const UntangleOptions of_method = options.of_method();
-    const std::string warped_first = options.warp_first ? to_string(*options.warp_first) : "";
+    const UntangleOptions of_method = options.of_method(input.topology());
+    const bool was_valid = before.summary.invalid + before.summary.undecided == 0;
+    // A valid mesh is not changed.
+    const std::string warped_first = options.warp_first && !was_valid ? to_string(*options.warp_first) : "";
     CurvedMesh start = input;
-    if (options.warp_first) {
+    if (!warped_first.empty()) {
         WarpOptions warp;
         warp.weighting = *options.warp_first;
         start = input.with_coordinates(warp_from_straight(input, warp, work.context()).coordinates);
@@ -121,8 +166,12 @@ int run(const Options& options, Work& work) {
     }
     const UntangleRun result = run_untangling(start, of_method, observers.observer(), work.context());
     work.end_phase("prepare", result.timings);
+    if (options.keeps_best) work.ignore_stop();
     const CurvedMesh mesh = input.with_coordinates(result.coordinates);
     const QualityReport after = certify_result(mesh, before, work);
+    const bool is_cancelled = result.reason == StopReason::cancelled;
+    if (is_cancelled && !note_cancelled(after, options.output.file, work)) return exit_cancelled;
+    const GlobalCheck global(mesh, after, work);
     const ShapeSummary shape_before = assess_shape(input, input.coordinates(), work.context());
     const ShapeSummary shape = assess_shape(mesh, input.coordinates(), work.context());
     work.end_phase("shape");
@@ -135,6 +184,8 @@ int run(const Options& options, Work& work) {
     write_output(options.output, mesh, read.fields, &after, &input.coordinates(), work);
     if (report) report->commit();
 
+    note_unmended(input.topology(), result, work);
+    const int status = note_outcome(options, was_valid, after, work);
     if (work.is_json()) {
         Json json = {{"mesh", mesh_json(options.output.file, mesh)}};
         json.update(run_json(input.topology(), of_method, warped_first, result));
@@ -144,15 +195,17 @@ int run(const Options& options, Work& work) {
              {"shape", shape_json(shape)},
              {"before", {{"scaled_jacobian", summary_json(before.summary)}, {"shape", shape_json(shape_before)}}},
              {"worst", worst_json(mesh, after)}});
+        global.add_to(json, mesh);
         if (report) json["report"] = options.report.string();
         work.print(json);
     } else {
         fmt::print("{}: {}\n", options.output.file.string(), mesh_line(mesh));
         fmt::print("before  {}\nafter   {}\n", summary_line(before.summary), summary_line(after.summary));
-        fmt::print("{}\n", run_text(input.topology(), of_method, result, work.timings()));
+        fmt::print("{}\n", run_text(of_method, result, work.timings()));
+        fmt::print("{}\n", global.line());
         if (report) fmt::print("report  {}\n", (options.report / report_html_name).string());
     }
-    return validity_status(after.summary);
+    return is_cancelled ? exit_cancelled : worse_status(status, global.status());
 }
 
 }  // namespace
@@ -212,15 +265,8 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->add_option("--report", options->report,
                      "Write report.html and report.json into this folder: the outcome with pictures, and how it went")
         ->type_name("DIR");
-    command
-        ->add_option("--target", options->guaranteed.target,
-                     "Elements below this scaled Jacobian are improved once all are valid (guaranteed)")
-        ->type_name("Q")
-        ->check([](const std::string& text) {
-            const double target = std::strtod(text.c_str(), nullptr);
-            return target > 0.0 && target <= 1.0 ? std::string() : "the target must be greater than 0 and at most 1";
-        })
-        ->capture_default_str();
+    add_target_option(*command, options->guaranteed.target,
+                      "Elements below this scaled Jacobian are improved once all are valid (guaranteed)");
     command
         ->add_option(
             "--boundary", options->boundary,
@@ -234,8 +280,11 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
         ->check(CLI::Range(0.0, 0.999));
     command->add_flag("!--valid-only", options->guaranteed.improves,
                       "Stop as soon as all elements are valid (guaranteed)");
+    add_node_options(*command, options->nodes);
+    add_keep_best_option(*command, options->keeps_best);
     command->parse_complete_callback([command, options] {
         options->has_report = command->count("--report") > 0;
+        options->has_target = command->count("--target") > 0;
         // A beta alone says which method is meant.
         if (command->count("--method") == 0 && command->count("--beta") > 0) options->method = signed_method;
         check_options(*command, options->method,
@@ -249,6 +298,9 @@ void add_untangle(CLI::App& app, Invocation& invocation) {
                        {"--boundary", {guaranteed_method}},
                        {"--shape-floor", {guaranteed_method}},
                        {"--valid-only", {guaranteed_method}}});
+        if (options->warp_first && (options->nodes.keeps_vertices || !options->nodes.fixed.empty()))
+            throw CLI::ValidationError("--warp-first",
+                                       "moves every interior node, so it excludes --keep-vertices and --fix-nodes");
     });
     set_action(*command, invocation, options, run);
 }

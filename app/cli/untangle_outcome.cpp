@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/report/parameters.h"
+#include "core/untangle/unmended_text.h"
 
 namespace curvewright::cli {
 namespace {
@@ -47,18 +48,21 @@ Json run_json(const MeshTopology& topology, const UntangleOptions& options, cons
     return json;
 }
 
-std::string run_text(const MeshTopology& topology, const UntangleOptions& options, const UntangleRun& run,
-                     const Json& timings) {
+void note_unmended(const MeshTopology& topology, const UntangleRun& run, Work& work) {
+    constexpr std::size_t listed = 5;
+    for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i)
+        work.note(describe(run.unmended[i], topology));
+    if (run.unmended.size() > listed)
+        work.note(fmt::format("{} more elements are not valid; \"unmended\" of --json lists them all.",
+                              run.unmended.size() - listed));
+}
+
+std::string run_text(const UntangleOptions& options, const UntangleRun& run, const Json& timings) {
     const auto seconds = [&timings](const char* name) { return timings.value(name, 0.0); };
     const auto* guaranteed = std::get_if<GuaranteedOptions>(&options);
     if (!guaranteed) return passes_text(run, seconds("warp") + seconds("untangle"));
     std::string text =
         fmt::format("guaranteed method: {:.3f} s, then {:.3f} s to improve", seconds("untangle"), seconds("improve"));
-    constexpr std::size_t listed = 5;
-    for (std::size_t i = 0; i < std::min(listed, run.unmended.size()); ++i)
-        text += fmt::format("\nelement {} cannot be mended with the boundary as it is: {}",
-                            topology.element_tag(run.unmended[i].element).value, run.unmended[i].reason);
-    if (run.unmended.size() > listed) text += fmt::format("\nand {} more elements", run.unmended.size() - listed);
     if (!guaranteed->boundary.is_all_fixed())
         text += fmt::format("\nboundary: {} sliding nodes, {} free ones; at most {:.3g} away from the input's",
                             run.sliding_nodes, run.free_nodes, run.largest_boundary_distance);

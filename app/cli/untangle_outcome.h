@@ -11,7 +11,8 @@ namespace curvewright::cli {
 Json run_json(const MeshTopology& topology, const UntangleOptions& options, const std::string& warped_first,
               const UntangleRun& run);
 /// The same in lines for people. timings: in seconds by name.
-std::string run_text(const MeshTopology& topology, const UntangleOptions& options, const UntangleRun& run,
-                     const Json& timings);
+std::string run_text(const UntangleOptions& options, const UntangleRun& run, const Json& timings);
+/// Notes which elements were not mended and why; of many the first.
+void note_unmended(const MeshTopology& topology, const UntangleRun& run, Work& work);
 
 }  // namespace curvewright::cli

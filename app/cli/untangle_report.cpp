@@ -17,7 +17,8 @@ std::unique_ptr<ReportFiles> write_report(const std::filesystem::path& folder, c
                         facts.warped_first,
                         facts.run,
                         facts.log,
-                        {}};
+                        {},
+                        work.command()};
     for (const auto& [name, seconds] : work.timings().items()) source.timings.emplace_back(name, seconds.get<double>());
     const RunReport report = collect_report(source, work.context());
     ReportPainter painter(facts.before, facts.quality_before, facts.after, facts.quality_after);

@@ -1,8 +1,11 @@
 #include "core/warp/warp.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/cli/command.h"
+#include "app/cli/global_check.h"
 #include "app/cli/output.h"
 #include "app/cli/warp_options.h"
 #include "core/io/deformation_file.h"
@@ -34,6 +37,7 @@ Outcome move(const WarpArguments& arguments, const CurvedMesh& input, const Defo
     if (arguments.steps) {
         const BoundaryPath path = [&](double fraction) { return apply_deformation(input, deformation, fraction); };
         IncrementalResult result = warp_in_increments(input, path, options, arguments.increments(), work.context());
+        if (arguments.keeps_best) work.ignore_stop();
         end_warp_phase(result.report, work);
         return {input.with_coordinates(std::move(result.coordinates)),
                 std::move(result.report),
@@ -151,18 +155,33 @@ int run(const WarpArguments& arguments, Work& work) {
     const CurvedMesh& input = read.mesh;
     const Deformation deformation = read_deformation(arguments.deformation, work.context());
     const Assessment before = assess(input, work);
-    if (before.report) note_orientation(*before.report, work);
+    if (before.report) note_assessment(input.topology(), *before.report, work);
     const Outcome outcome = move(arguments, input, deformation, before, work);
+    const bool is_cancelled = outcome.increments && outcome.increments->is_cancelled;
+    if (is_cancelled && outcome.increments->accepted == 0) {
+        fmt::print(stderr, "Cancelled before the first step of the motion was reached; nothing was written.\n");
+        return exit_cancelled;
+    }
+    const auto global = check_globally(outcome.mesh, outcome.quality, work);
     write_output(arguments.output, outcome.mesh, read.fields,
                  outcome.quality.report ? &*outcome.quality.report : nullptr, &input.coordinates(), work);
 
+    if (is_cancelled)
+        work.note(fmt::format("Cancelled; the last valid mesh, {:.4g} % of the motion, was written to {}.",
+                              100.0 * outcome.increments->fraction, arguments.output.file.string()));
     note_remarks(arguments, outcome, work);
-    if (work.is_json())
-        work.print(result_json(arguments, before, outcome));
-    else
+    if (work.is_json()) {
+        Json json = result_json(arguments, before, outcome);
+        if (global) global->add_to(json, outcome.mesh);
+        work.print(json);
+    } else {
         print_result(arguments, before, outcome);
+        if (global) fmt::print("{}\n", global->line());
+    }
+    if (is_cancelled) return exit_cancelled;
     if (!outcome.is_complete()) return exit_not_valid;
-    return outcome.quality.report ? validity_status(outcome.quality.report->summary) : exit_done;
+    if (!global) return exit_done;
+    return worse_status(validity_status(outcome.quality.report->summary), global->status());
 }
 
 }  // namespace

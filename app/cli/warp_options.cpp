@@ -3,6 +3,8 @@
 #include <charconv>
 #include <utility>
 
+#include "app/cli/node_options.h"
+
 namespace curvewright::cli {
 namespace {
 
@@ -119,6 +121,7 @@ void add_increment_options(CLI::App& command, WarpArguments& arguments) {
         .add_flag("--keep-weights", arguments.keeps_weights,
                   "With --increments: the weights of the first mesh for all steps, not new ones at every step")
         ->needs(increments);
+    add_keep_best_option(command, arguments.keeps_best)->needs(increments);
 }
 
 }  // namespace
@@ -127,6 +130,7 @@ IncrementOptions WarpArguments::increments() const {
     IncrementOptions options;
     options.steps = *steps;
     options.recomputes_weights = !keeps_weights;
+    options.keeps_best_on_cancel = keeps_best;
     return options;
 }
 

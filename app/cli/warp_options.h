@@ -18,6 +18,7 @@ struct WarpArguments {
     WarpOptions warp;
     std::optional<int> steps;  ///< --increments: 0 = auto; none: the whole motion at once
     bool keeps_weights = false;
+    bool keeps_best = false;
     /// Names of the options given that the chosen weights do not use.
     std::vector<std::string> without_effect;
 

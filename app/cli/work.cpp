@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sha256.h"
+
 namespace curvewright::cli {
 
 void Work::note(const std::string& sentence) {
@@ -33,6 +35,21 @@ void Work::end_phase(const std::string& phase, const std::vector<std::pair<std::
     }
     add(phase, std::max(rest, 0.0));
     phase_began_ = now;
+}
+
+void Work::set_input(const std::filesystem::path& file) {
+    if (input_.empty()) input_ = file;
+}
+
+Provenance Work::provenance() const {
+    Provenance provenance;
+    provenance.version = CURVEWRIGHT_VERSION;
+    provenance.command = invocation_.command;
+    provenance.input = input_.filename().string();
+    std::error_code ignored;
+    // A pipe has no content any more.
+    if (std::filesystem::is_regular_file(input_, ignored)) provenance.input_sha256 = sha256_of_file(input_);
+    return provenance;
 }
 
 void Work::print(Json json) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <initializer_list>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 
 #include "app/cli/command.h"
 #include "core/base/stopwatch.h"
+#include "core/io/provenance.h"
 
 namespace curvewright::cli {
 
@@ -20,7 +22,11 @@ class Work {
     Work(const Invocation& invocation, const TaskContext& context) : invocation_(invocation), context_(context) {}
 
     const TaskContext& context() const { return context_; }
+    /// From now on the work goes on to its end whatever the user asks: what was reached so far is to be kept.
+    void ignore_stop() { context_.stop = {}; }
     bool is_json() const { return invocation_.common.json; }
+    /// The command as files record it (see recorded_command.h).
+    const std::string& command() const { return invocation_.command; }
     bool is_quiet() const { return invocation_.common.quiet; }
 
     /// One sentence that the user should know besides the result: on standard error at once, unless --quiet, and among
@@ -37,6 +43,11 @@ class Work {
     const Json& timings() const { return timings_; }
     double seconds(const std::string& phase) const { return timings_.value(phase, 0.0); }
 
+    /// The mesh that the command works on, for the provenance of what it writes; the first one counts.
+    void set_input(const std::filesystem::path& file);
+    /// Who makes what is written: this program, the command, and the input with the hash of its bytes.
+    Provenance provenance() const;
+
     /// Prints the result as one JSON object on standard output, with "notes" and "timings" at its end. Bytes that are
     /// no UTF-8 (in file or group names) become U+FFFD.
     void print(Json json);
@@ -45,8 +56,9 @@ class Work {
     void add(const std::string& phase, double seconds);
 
     const Invocation& invocation_;
-    const TaskContext& context_;
+    TaskContext context_;
     std::vector<std::string> notes_;
+    std::filesystem::path input_;
     Json timings_ = Json::object();
     Stopwatch watch_;
     double phase_began_ = 0.0;

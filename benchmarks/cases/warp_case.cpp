@@ -33,7 +33,7 @@ WarpCase family_case(const std::filesystem::path& families, int dimension, int l
     if (!std::filesystem::exists(file))
         throw InvalidInput(fmt::format("{} is missing; make the meshes with sample_meshes/families/generate.sh {}.",
                                        file.string(), families.string()));
-    const CurvedMesh mesh = elevate(read_mesh(file).mesh, order);
+    const CurvedMesh mesh = elevate(read_mesh(file).mesh, ElevateOptions{order, ElevatedGeometry::straight}).mesh;
     Coordinates target = mesh.coordinates();
     for (const Index node : mesh.topology().boundary_nodes())
         target.row(node) = family_motion(target.row(node), dimension);

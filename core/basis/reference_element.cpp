@@ -92,6 +92,13 @@ std::unique_ptr<const ReferenceElement> build(ElementType type) {
         for (int node : facet.nodes) on_facet[node] = true;
     for (int node = 0; node < element->node_count(); ++node)
         if (!on_facet[node]) element->interior_nodes.push_back(node);
+    for (LatticePoint point : element->lattice) {
+        if (element->dimension == 1)
+            point[0] = type.order - point[0];
+        else
+            std::swap(point[0], point[1]);
+        element->mirrored.push_back(element->find_node(point));
+    }
     return element;
 }
 

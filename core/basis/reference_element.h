@@ -30,6 +30,10 @@ struct ReferenceElement {
     /// Nodes that lie inside the element, on no facet of it.
     std::vector<int> interior_nodes;
 
+    /// For every node the one that takes its place in the mirrored element, whose first two axes are exchanged: the
+    /// numbering of the same element that runs the other way round. Mirrored twice is as it was.
+    std::vector<int> mirrored;
+
     int node_count() const { return static_cast<int>(lattice.size()); }
     /// Position of the node at a lattice point; -1 if there is none.
     int find_node(LatticePoint point) const;

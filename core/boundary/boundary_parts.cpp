@@ -91,7 +91,7 @@ BoundaryParts::BoundaryParts(const CurvedMesh& mesh, double feature_angle) : top
         for (std::size_t i = facet_offsets_[facet]; i < facet_offsets_[facet + 1]; ++i)
             node_facets_[next[static_cast<std::size_t>(facet_nodes_[i])]++] = static_cast<Index>(facet);
 
-    double volume = 0.0;
+    std::vector<double> volumes(static_cast<std::size_t>(topology.winding().part_count), 0.0);
     for (Index element = 0; element < topology.element_count(); ++element) {
         // Signed size of the simplex of the first corner and its neighbours: what the numbering says about the sides.
         const auto nodes = topology.element_nodes(element);
@@ -104,9 +104,13 @@ BoundaryParts::BoundaryParts(const CurvedMesh& mesh, double feature_angle) : top
         const Eigen::Vector3d b = (x.row(nodes[static_cast<std::size_t>(across)]) - x.row(nodes[0])).transpose();
         Eigen::Vector3d c = Eigen::Vector3d::UnitZ();
         if (topology.dimension() == 3) c = (x.row(nodes[static_cast<std::size_t>(up)]) - x.row(nodes[0])).transpose();
-        volume += a.cross(b).dot(c);
+        const double volume = a.cross(b).dot(c);
+        volumes[topology.winding().part_of_element[element]] += topology.is_reversed(element) ? -volume : volume;
     }
-    sign_ = volume < 0.0 ? -1.0 : 1.0;
+    for (const Facet& facet : facets) {
+        const bool is_negative = volumes[topology.winding().part_of_element[facet.element]] < 0.0;
+        signs_.push_back(is_negative != topology.is_reversed(facet.element) ? -1 : 1);
+    }
 
     DisjointSets components(facets.size()), parts(facets.size());
     struct Meeting {
@@ -239,9 +243,9 @@ Eigen::Vector3d BoundaryParts::normal(const Coordinates& x, Index node) const {
         const Eigen::Vector3d du = (basis.gradients[0] * at).transpose();
         Eigen::Vector3d dv = Eigen::Vector3d::UnitZ();
         if (type.shape != Shape::line) dv = (basis.gradients[1] * at).transpose();
-        sum += du.cross(dv).normalized();
+        sum += signs_[static_cast<std::size_t>(facet)] * du.cross(dv).normalized();
     }
-    return sum.norm() > 1e-9 ? Eigen::Vector3d(sign_ * sum.normalized()) : Eigen::Vector3d::Zero().eval();
+    return sum.norm() > 1e-9 ? Eigen::Vector3d(sum.normalized()) : Eigen::Vector3d::Zero().eval();
 }
 
 }  // namespace curvewright

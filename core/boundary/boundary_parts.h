@@ -52,7 +52,7 @@ class BoundaryParts {
     std::vector<Index> collect(const std::vector<int>& labels, int label) const;
 
     std::shared_ptr<const MeshTopology> topology_;
-    double sign_ = 1.0;  ///< -1: the elements are numbered the other way round, and so are their facets
+    std::vector<signed char> signs_;  ///< per facet; -1: its element is numbered so that the facet's normal is inward
     std::vector<std::size_t> facet_offsets_;  ///< facets + 1
     std::vector<Index> facet_nodes_;
     std::vector<std::size_t> node_offsets_;  ///< nodes + 1

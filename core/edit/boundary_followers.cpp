@@ -1,6 +1,7 @@
 #include "core/edit/boundary_followers.h"
 
 #include "core/base/parallel.h"
+#include "core/mesh/renumbering.h"
 
 namespace curvewright {
 
@@ -8,7 +9,7 @@ BoundaryFollowers::BoundaryFollowers(const CurvedMesh& start, const BoundaryRule
                                      const std::vector<Index>& held) {
     if (rules.is_all_fixed()) return;
     const MeshTopology& topology = start.topology();
-    shape_ = std::make_shared<const BoundaryShape>(start, rules);
+    shape_ = std::make_shared<const BoundaryShape>(NumberedAlike(start).mesh(), rules);
     start_ = start.coordinates();
     std::vector<char> is_held(static_cast<std::size_t>(topology.node_count()), 0);
     for (const Index node : held)

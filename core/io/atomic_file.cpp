@@ -84,11 +84,12 @@ void AtomicFile::commit() {
     if (fs::is_directory(target_, error))
         throw InvalidInput(target_.string(), 0, "the file cannot be written (there is a folder of that name).");
     if (is_stream_) {
+        errno = 0;
         std::ifstream source(temporary_, std::ios::binary);
         std::ofstream stream(target_, std::ios::binary);
         if (source.peek() != std::ifstream::traits_type::eof()) stream << source.rdbuf();
         stream.close();
-        if (!stream) throw InvalidInput(target_.string(), 0, "the file cannot be written.");
+        if (!stream) throw InvalidInput(target_.string(), 0, fmt::format("the file cannot be written ({}).", reason()));
         return;  // the destructor removes the temporary file
     }
     fs::rename(temporary_, target_, error);

@@ -118,20 +118,19 @@ std::vector<std::string> write_mesh(const std::filesystem::path& file, const Cur
     const bool is_msh = *format == MeshFormat::msh2 || *format == MeshFormat::msh4;
     if (is_msh && options.binary.value_or(false))
         throw Unsupported(fmt::format("{}: binary MSH cannot be written; MSH is written as text.", file.string()));
-    if (!is_msh) {
-        AtomicFile atomic(file);
+    std::string text;
+    if (is_msh) {
+        try {
+            text =
+                *format == MeshFormat::msh2 ? msh2_text(mesh, options.provenance) : msh4_text(mesh, options.provenance);
+            text += msh_data_text(mesh, fields, notes);
+        } catch (const Unsupported& error) {
+            throw Unsupported(fmt::format("{}: {}", file.string(), error.what()));
+        }
+    } else {
         WriteOptions with_kept = options;
         with_kept.fields = &fields;
-        write_vtk(atomic.path(), file.string(), mesh, *format, with_kept, notes);
-        atomic.commit();
-        return notes;
-    }
-    std::string text;
-    try {
-        text = *format == MeshFormat::msh2 ? msh2_text(mesh) : msh4_text(mesh);
-        text += msh_data_text(mesh, fields, notes);
-    } catch (const Unsupported& error) {
-        throw Unsupported(fmt::format("{}: {}", file.string(), error.what()));
+        text = vtk_text(file.string(), mesh, *format, with_kept, notes);
     }
     write_text_file(file, text);
     return notes;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/io/provenance.h"
 #include "core/mesh/curved_mesh.h"
 #include "core/mesh/field_array.h"
 #include "core/quality/quality.h"
@@ -20,7 +21,7 @@ const char* to_string(MeshFormat format);
 struct ReadResult {
     CurvedMesh mesh;
     MeshFormat format = MeshFormat::msh4;
-    /// Things the reader passed over or repaired, one sentence each ("Section $Periodic was skipped.").
+    /// Things the reader passed over or repaired, one sentence each ("Section $Parametrizations was skipped.").
     std::vector<std::string> notes;
     /// The file's arrays of numbers on nodes and elements, with names of their own among those of one place. Not this
     /// program's own of a file that it wrote, but for Displacement.
@@ -39,13 +40,15 @@ struct WriteOptions {
     std::optional<MeshFormat> format;
     /// VTU and VTK only: compressed binary instead of ASCII. (VTU is binary by default: 17 digits cost nothing there.)
     std::optional<bool> binary;
-    /// VTU and VTK: cell arrays ScaledJacobian and Validity (0 invalid, 1 valid, 2 undecided).
+    /// VTU and VTK: cell arrays ScaledJacobian and Validity (0 invalid, 1 valid, 2 undecided, 3 not assessed).
     const QualityReport* quality = nullptr;
     /// VTU and VTK: point array Displacement = coordinates - reference. Same size as the mesh's coordinates.
     const Coordinates* reference = nullptr;
     /// Arrays of the nodes and elements of this mesh, written along. An array with the name of one of the above is left
     /// out.
     const std::vector<FieldArray>* fields = nullptr;
+    /// Who makes the file; MSH: a section $Comments, VTU and VTK: bytes among the field data.
+    const Provenance* provenance = nullptr;
 };
 
 /// Writes a mesh with all its cells, tags, groups and entities: to a temporary file beside the target, which takes its

@@ -12,12 +12,12 @@ ReadResult read_msh(std::string_view text, const std::string& file, const TaskCo
 
 /// The mesh as MSH 4.1 ASCII: runs of nodes of one entity and runs of elements keep their order. Elements and nodes
 /// without entity are put on one that is made for them. Throws Unsupported for types that Gmsh does not have and for
-/// group names that MSH cannot hold.
-std::string msh4_text(const CurvedMesh& mesh);
+/// group names that MSH cannot hold. provenance becomes a section $Comments; null = none.
+std::string msh4_text(const CurvedMesh& mesh, const Provenance* provenance = nullptr);
 
 /// The mesh as MSH 2.2 ASCII. An element in several physical groups stands once per group, with the same tag each time.
 /// The classification of nodes and entities without elements have no place in the format. Throws like msh4_text.
-std::string msh2_text(const CurvedMesh& mesh);
+std::string msh2_text(const CurvedMesh& mesh, const Provenance* provenance = nullptr);
 
 /// The sections $NodeData and $ElementData of arrays, for both versions. Values that are missing are left out. MSH
 /// knows rows of 1, 3 and 9 numbers: two become three, others arrays of their components, of which notes tell.

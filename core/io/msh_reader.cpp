@@ -8,6 +8,7 @@
 #include "core/io/msh2_elements.h"
 #include "core/io/msh_data.h"
 #include "core/io/msh_io.h"
+#include "core/io/msh_links.h"
 #include "core/io/msh_scanner.h"
 #include "core/io/msh_types.h"
 
@@ -59,6 +60,8 @@ class MshReader {
             notes_.push_back("Negative tags of physical groups (reversed orientation) were read as positive.");
         const Coordinates coordinates =
             Eigen::Map<const Coordinates>(xyz_.data(), static_cast<Eigen::Index>(data_.node_tags.size()), 3);
+        periodic_.attach(
+            data_, [this](std::int64_t tag) { return finder_.find(tag); }, notes_);
         complete_entities(data_, coordinates);
         complete_groups(data_);
         context_.report("reading", 1.0);
@@ -92,6 +95,7 @@ class MshReader {
 
     MshScanner in_;
     MshData arrays_;
+    MshPeriodic periodic_;
     const TaskContext& context_;
     double version_ = 0.0;
     bool has_nodes_ = false, has_elements_ = false, has_entities_ = false, has_negative_groups_ = false;
@@ -139,6 +143,10 @@ void MshReader::read_section() {
         read_elements_4();
     else if (name == "Elements")
         read_elements_2();
+    else if (name == "Periodic")
+        periodic_.read(in_, version_, context_);
+    else if (is_4 && name == "GhostElements")
+        read_ghost_elements(in_, data_.partitioning, context_);
     else if (name == "NodeData" || name == "ElementData")
         arrays_.read(in_, name == "NodeData" ? FieldArray::Place::nodes : FieldArray::Place::elements, context_);
     else {
@@ -204,12 +212,7 @@ Entity MshReader::read_entity(int dim, bool is_partitioned) {
     Entity entity;
     entity.dimension = dim;
     entity.tag = in_.integer<int>("the tag of an entity");
-    if (is_partitioned) {
-        in_.integer<int>("the dimension of the parent entity");
-        in_.integer<int>("the tag of the parent entity");
-        const std::size_t partitions = in_.count("partitions");
-        for (std::size_t i = 0; i < partitions; ++i) in_.integer<int>("a partition");
-    }
+    if (is_partitioned) read_entity_parent(in_, entity);
     const bool is_position = dim == 0 && version_ > 4.0;
     for (int d = 0; d < (is_position ? 3 : 6); ++d)
         entity.bounding_box[d] = in_.real(is_position ? "a coordinate of a point" : "a bound of an entity's box");
@@ -229,10 +232,7 @@ Entity MshReader::read_entity(int dim, bool is_partitioned) {
 
 void MshReader::read_entities(bool is_partitioned) {
     if (is_partitioned) {
-        in_.integer<long long>("the number of partitions");
-        const std::size_t ghosts = in_.count("ghost entities", 4);
-        for (std::size_t i = 0; i < 2 * ghosts; ++i) in_.integer<int>("a ghost entity and its partition");
-        notes_.push_back("The parts of a partitioned mesh were read as entities; the partitions were passed over.");
+        read_partition_head(in_, data_.partitioning);
     } else if (has_entities_) {
         in_.fail("a second $Entities section stands here.");
     } else {
@@ -249,8 +249,8 @@ void MshReader::read_entities(bool is_partitioned) {
             const auto [place, is_new] = places.try_emplace({dim, entity.tag}, data_.entities.size());
             if (is_new)
                 data_.entities.push_back(std::move(entity));
-            else if (is_partitioned)
-                data_.entities[place->second].physical_tags = std::move(entity.physical_tags);
+            else if (is_partitioned && !data_.entities[place->second].is_partition())
+                data_.entities[place->second] = std::move(entity);
             else
                 in_.fail(fmt::format("entity {} of dimension {} occurs twice.", entity.tag, dim));
         }
@@ -416,8 +416,11 @@ void MshReader::read_elements_2() {
         const std::size_t tags = in_.count("tags of the element");
         const int physical = tags > 0 ? read_physical_tag() : 0;
         const int elementary = tags > 1 ? in_.integer<int>("the tag of an elementary entity") : 0;
-        for (std::size_t k = 2; k < tags; ++k) in_.integer<long long>("a tag of the element");
+        std::vector<int> partitions = read_element_partitions(in_, tags > 2 ? tags - 2 : 0);
         read_element_nodes(type, tag);
+        for (const int partition : partitions) data_.partitioning.count = std::max(data_.partitioning.count, partition);
+        if (!partitions.empty())
+            data_.partitioning.element_partitions.push_back({dimension(type.shape), {tag}, std::move(partitions)});
         if (elements.add(type, {tag}, physical, elementary, nodes_) == Msh2Elements::Outcome::conflict)
             in_.fail(fmt::format("element {} occurs twice; element tags must be unique.", tag));
     }

@@ -9,6 +9,7 @@
 #include "core/basis/node_ordering.h"
 #include "core/io/mesh_entities.h"
 #include "core/io/msh_io.h"
+#include "core/io/msh_links.h"
 #include "core/io/msh_types.h"
 
 namespace curvewright {
@@ -75,6 +76,22 @@ void place_nodes(MeshData& data) {
     }
 }
 
+/// Gives the entities of periodic links a place: Gmsh reads no link of an entity that the file does not have, and
+/// MSH 2.2 has only those with elements.
+void place_periodic_entities(MeshData& data, const Coordinates& coordinates) {
+    std::set<EntityKey> known;
+    for (const Entity& entity : data.entities) known.emplace(entity.dimension, entity.tag);
+    for (const PeriodicLink& link : data.periodic)
+        for (const bool is_master : {false, true}) {
+            const int tag = is_master ? link.master_tag : link.tag;
+            if (tag <= 0 || !known.emplace(link.dimension, tag).second) continue;
+            GrowingBox box;
+            for (const auto& [node, master] : link.nodes) box.add(coordinates, is_master ? master : node);
+            data.entities.push_back({link.dimension, tag, {}, {}, {}});
+            if (!box.is_empty()) data.entities.back().bounding_box = box.bounds;
+        }
+}
+
 void check_types(const MeshData& data) {
     for (const ElementBlock& block : data.blocks)
         if (block.size() > 0 && !msh_type_of(block.type))
@@ -98,31 +115,46 @@ void add_physical_names(Text& text, const MeshData& data) {
     text.add("$EndPhysicalNames\n");
 }
 
+void add_entity(Text& text, const Entity& entity, const std::set<EntityKey>& known) {
+    const int dim = entity.dimension;
+    text.add("{}", entity.tag);
+    if (entity.is_partition()) {
+        text.add(" {} {} {}", entity.parent_dimension, entity.parent_tag, entity.partitions.size());
+        for (const int partition : entity.partitions) text.add(" {}", partition);
+    }
+    for (int d = 0; d < (dim == 0 ? 3 : 6); ++d) text.add(" {}", entity.bounding_box[d]);
+    text.add(" {}", entity.physical_tags.size());
+    for (const int tag : entity.physical_tags) text.add(" {}", tag);
+    if (dim > 0) {
+        std::vector<int> bounding;
+        for (const int tag : entity.bounding_entities)
+            if (known.contains({dim - 1, tag}) || known.contains({dim - 1, -tag})) bounding.push_back(tag);
+        text.add(" {}", bounding.size());
+        for (const int tag : bounding) text.add(" {}", tag);
+    }
+    text.add("\n");
+}
+
+/// $Entities, and $PartitionedEntities where the mesh has parts of entities.
 void add_entities(Text& text, const MeshData& data) {
     std::set<EntityKey> known;
-    std::array<std::size_t, 4> counts{};
-    for (const Entity& entity : data.entities) {
-        known.emplace(entity.dimension, entity.tag);
-        ++counts[entity.dimension];
+    for (const Entity& entity : data.entities) known.emplace(entity.dimension, entity.tag);
+    const bool is_partitioned = data.partitioning.count > 0 || !data.partitioning.ghost_entities.empty() ||
+                                std::any_of(data.entities.begin(), data.entities.end(),
+                                            [](const Entity& entity) { return entity.is_partition(); });
+    for (const bool are_parts : {false, true}) {
+        if (are_parts && !is_partitioned) return;
+        const char* section = are_parts ? "PartitionedEntities" : "Entities";
+        std::array<std::size_t, 4> counts{};
+        for (const Entity& entity : data.entities) counts[entity.dimension] += entity.is_partition() == are_parts;
+        text.add("${}\n", section);
+        if (are_parts) text.add("{}", partition_head_text(data.partitioning));
+        text.add("{} {} {} {}\n", counts[0], counts[1], counts[2], counts[3]);
+        for (int dim = 0; dim < 4; ++dim)
+            for (const Entity& entity : data.entities)
+                if (entity.dimension == dim && entity.is_partition() == are_parts) add_entity(text, entity, known);
+        text.add("$End{}\n", section);
     }
-    text.add("$Entities\n{} {} {} {}\n", counts[0], counts[1], counts[2], counts[3]);
-    for (int dim = 0; dim < 4; ++dim)
-        for (const Entity& entity : data.entities) {
-            if (entity.dimension != dim) continue;
-            text.add("{}", entity.tag);
-            for (int d = 0; d < (dim == 0 ? 3 : 6); ++d) text.add(" {}", entity.bounding_box[d]);
-            text.add(" {}", entity.physical_tags.size());
-            for (const int tag : entity.physical_tags) text.add(" {}", tag);
-            if (dim > 0) {
-                std::vector<int> bounding;
-                for (const int tag : entity.bounding_entities)
-                    if (known.contains({dim - 1, tag}) || known.contains({dim - 1, -tag})) bounding.push_back(tag);
-                text.add(" {}", bounding.size());
-                for (const int tag : bounding) text.add(" {}", tag);
-            }
-            text.add("\n");
-        }
-    text.add("$EndEntities\n");
 }
 
 /// The nodes in runs of the same entity, so that their order stays.
@@ -185,6 +217,11 @@ void add_element_blocks(Text& text, const MeshData& data) {
     text.add("$EndElements\n");
 }
 
+void add_format(Text& text, const char* version, const Provenance* provenance) {
+    text.add("$MeshFormat\n{} 0 8\n$EndMeshFormat\n", version);
+    if (provenance != nullptr) text.add("$Comments\n{}$EndComments\n", provenance_text(*provenance));
+}
+
 /// The mesh's data with every cell on an entity, and every entity and group complete.
 MeshData prepared(const CurvedMesh& mesh, bool with_nodes) {
     MeshData data = mesh.topology().data();
@@ -192,6 +229,11 @@ MeshData prepared(const CurvedMesh& mesh, bool with_nodes) {
     place_cells(data);
     complete_entities(data, mesh.coordinates());
     if (with_nodes) {
+        place_periodic_entities(data, mesh.coordinates());
+        if (!data.partitioning.element_partitions.empty()) {
+            make_partition_entities(data);
+            complete_entities(data, mesh.coordinates());
+        }
         place_nodes(data);
         complete_entities(data, mesh.coordinates());
     }
@@ -201,18 +243,20 @@ MeshData prepared(const CurvedMesh& mesh, bool with_nodes) {
 
 }  // namespace
 
-std::string msh4_text(const CurvedMesh& mesh) {
+std::string msh4_text(const CurvedMesh& mesh, const Provenance* provenance) {
     const MeshData data = prepared(mesh, true);
     Text text;
-    text.add("$MeshFormat\n4.1 0 8\n$EndMeshFormat\n");
+    add_format(text, "4.1", provenance);
     add_physical_names(text, data);
     add_entities(text, data);
     add_node_blocks(text, data, mesh.coordinates());
     add_element_blocks(text, data);
+    text.add("{}", periodic_text(data, true));
+    text.add("{}", ghost_elements_text(data.partitioning));
     return text.str();
 }
 
-std::string msh2_text(const CurvedMesh& mesh) {
+std::string msh2_text(const CurvedMesh& mesh, const Provenance* provenance) {
     const MeshData data = prepared(mesh, false);
     std::map<EntityKey, std::vector<int>> physicals_on;
     for (const Entity& entity : data.entities) {
@@ -221,7 +265,7 @@ std::string msh2_text(const CurvedMesh& mesh) {
         if (tags.empty()) tags.push_back(0);
     }
     Text text;
-    text.add("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n");
+    add_format(text, "2.2", provenance);
     add_physical_names(text, data);
     text.add("$Nodes\n{}\n", data.node_tags.size());
     for (Index node = 0; node < mesh.topology().node_count(); ++node) {
@@ -233,17 +277,23 @@ std::string msh2_text(const CurvedMesh& mesh) {
         if (block.size() > 0)
             lines += block.tags.size() * physicals_on.at({dimension(block.type.shape), block.entity_tag}).size();
     text.add("$EndNodes\n$Elements\n{}\n", lines);
+    const PartitionsByElement parts(data);
     std::vector<std::int64_t> scratch;
     for (const ElementBlock& block : data.blocks) {
         if (block.size() == 0) continue;
         const auto& physicals = physicals_on.at({dimension(block.type.shape), block.entity_tag});
-        for (std::size_t i = 0; i < block.tags.size(); ++i)
+        const int elementary = parts.elementary(block);
+        for (std::size_t i = 0; i < block.tags.size(); ++i) {
+            const std::string partitions = parts.text(block, i);
+            const auto tags = 2 + std::count(partitions.begin(), partitions.end(), ' ');
             for (const int physical : physicals) {
-                text.add("{} {} 2 {} {}", block.tags[i].value, *msh_type_of(block.type), physical, block.entity_tag);
+                text.add("{} {} {} {} {}{}", block.tags[i].value, *msh_type_of(block.type), tags, physical, elementary,
+                         partitions);
                 add_element_nodes(text, data, block, i, scratch);
             }
+        }
     }
-    text.add("$EndElements\n");
+    text.add("$EndElements\n{}", periodic_text(data, false));
     return text.str();
 }
 

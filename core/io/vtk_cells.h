@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <vtkCellType.h>
@@ -29,6 +32,18 @@ inline constexpr std::array<CellKind, 8> cell_kinds = {{
     {Shape::prism, VTK_WEDGE, VTK_LAGRANGE_WEDGE},
     {Shape::pyramid, VTK_PYRAMID, VTK_LAGRANGE_PYRAMID},
 }};
+
+/// The one type whose corners VTK has in another order: the base of its linear prism (vtkWedge) looks outward, so that
+/// corners 1 and 2, and 4 and 5, change places. That of its prisms of higher order (types 32 and 73) looks inward, as
+/// ours does; Gmsh and meshio write them so, too.
+inline constexpr ElementType linear_prism{Shape::prism, 1};
+
+/// Between VTK's order of a linear prism and ours, in either direction. pre: six nodes.
+template <class Nodes>
+void swap_prism_corners(Nodes& nodes) {
+    std::swap(nodes[1], nodes[2]);
+    std::swap(nodes[4], nodes[5]);
+}
 
 /// Complete VTK cells of fixed order whose nodes VTK numbers in its own way.
 struct FixedCell {
@@ -81,12 +96,27 @@ inline std::vector<vtkIdType> permutation_of_fixed_cell(const FixedCell& fixed) 
     return permutation;
 }
 
+/// Lagrange hexahedra of VTK before version 9 (files before version 2.1): the nodes of the edges that go up from
+/// corners 2 and 3 change places.
+inline std::vector<vtkIdType> permutation_from_vtk8(int order) {
+    std::vector<vtkIdType> permutation(static_cast<std::size_t>(node_count({Shape::hexahedron, order})));
+    std::iota(permutation.begin(), permutation.end(), vtkIdType{0});
+    const auto edge = permutation.begin() + 8 + 10 * (order - 1);
+    std::swap_ranges(edge, edge + (order - 1), edge + (order - 1));
+    return permutation;
+}
+
 inline std::optional<ReadableCell> readable_cell(int vtk_type, vtkIdType points) {
     for (const CellKind& kind : cell_kinds) {
-        if (vtk_type == kind.linear && points == corner_count(kind.shape)) return ReadableCell{{kind.shape, 1}, {}};
+        if (vtk_type == kind.linear && points == corner_count(kind.shape)) {
+            ReadableCell cell{{kind.shape, 1}, {}};
+            if (cell.type == linear_prism) cell.permutation = {0, 2, 1, 3, 5, 4};
+            return cell;
+        }
         for (int order = 3; vtk_type == kind.linear && order <= max_order; ++order) {
             const ElementType type{kind.shape, order};
-            if (kind.shape == Shape::vertex || points != node_count(type)) continue;
+            // Gmsh cannot write prisms so.
+            if (kind.shape == Shape::vertex || kind.shape == Shape::prism || points != node_count(type)) continue;
             const auto& permutation = gmsh_permutation(type);
             return ReadableCell{type, {permutation.begin(), permutation.end()}, true};
         }

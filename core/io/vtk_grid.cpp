@@ -11,12 +11,10 @@
 #include <vtkCellData.h>
 #include <vtkCellTypes.h>
 #include <vtkDoubleArray.h>
-#include <vtkFieldData.h>
 #include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkStringArray.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
@@ -26,34 +24,14 @@
 #include "core/basis/reference_element.h"
 #include "core/io/mesh_entities.h"
 #include "core/io/vtk_cells.h"
+#include "core/io/vtk_field_data.h"
 
 namespace curvewright {
 namespace {
 
-// Names of the arrays. Field data: entities as runs of (dimension, tag, number of physical tags, physical tags, number
-// of bounding entities, bounding entities); their boxes, 6 numbers each; groups as (dimension, tag); the groups' names;
-// per node (dimension, tag) of its entity, -1 for none.
 constexpr const char *node_tag_name = "NodeTag", *element_tag_name = "ElementTag", *entity_tag_name = "EntityTag";
-constexpr const char *entities_name = "CurvewrightEntities", *boxes_name = "CurvewrightEntityBoxes";
-constexpr const char *groups_name = "CurvewrightGroups", *group_names_name = "CurvewrightGroupNames";
-constexpr const char* node_entities_name = "CurvewrightNodeEntities";
 
 // ---------------------------------------------------------------------------------------------------- mesh to grid
-
-template <class Array>
-vtkSmartPointer<Array> new_array(const char* name, int components, vtkIdType tuples) {
-    auto array = vtkSmartPointer<Array>::New();
-    array->SetName(name);
-    array->SetNumberOfComponents(components);
-    array->SetNumberOfTuples(tuples);
-    return array;
-}
-
-vtkSmartPointer<vtkIntArray> int_array(const char* name, int components, const std::vector<int>& values) {
-    auto array = new_array<vtkIntArray>(name, components, static_cast<vtkIdType>(values.size()) / components);
-    std::copy(values.begin(), values.end(), array->GetPointer(0));
-    return array;
-}
 
 void fill_points(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options) {
     const Index count = mesh.topology().node_count();
@@ -111,6 +89,7 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
         for (std::size_t i = 0; i < block.tags.size(); ++i) {
             const auto first = block.nodes.begin() + static_cast<std::ptrdiff_t>(i * per_element);
             ids.assign(first, first + static_cast<std::ptrdiff_t>(per_element));
+            if (block.type == linear_prism) swap_prism_corners(ids);
             cells->InsertNextCell(static_cast<vtkIdType>(per_element), ids.data());
             types->InsertNextValue(static_cast<unsigned char>(vtk_type_of(block.type)));
             tags->InsertNextValue(block.tags[i].value);
@@ -118,11 +97,15 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
             groups->InsertNextValue(group == group_of_entity.end() ? 0 : group->second);
             if (quality == nullptr) continue;
             const bool is_element = dim == topology.dimension() && dim > 0;
-            jacobian->InsertNextValue(is_element ? quality->elements[element].scaled_jacobian : no_jacobian);
+            const bool is_assessed = is_element && quality->elements[element].validity != Validity::not_assessed;
+            jacobian->InsertNextValue(is_assessed ? quality->elements[element].scaled_jacobian : no_jacobian);
             int state = -1;
             if (is_element) {
                 const Validity proved = quality->elements[element++].validity;
-                state = proved == Validity::valid ? 1 : proved == Validity::invalid ? 0 : 2;
+                state = proved == Validity::valid          ? 1
+                        : proved == Validity::invalid    ? 0
+                        : proved == Validity::undecided ? 2
+                                                        : 3;
             }
             validity->InsertNextValue(state);
         }
@@ -211,65 +194,12 @@ void fill_fields(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const std::v
     }
 }
 
-void fill_field_data(vtkUnstructuredGrid& grid, const MeshData& data) {
-    vtkFieldData* field = grid.GetFieldData();
-    std::vector<int> entities, groups, node_entities;
-    for (const Entity& entity : data.entities) {
-        entities.insert(entities.end(), {entity.dimension, entity.tag, static_cast<int>(entity.physical_tags.size())});
-        entities.insert(entities.end(), entity.physical_tags.begin(), entity.physical_tags.end());
-        entities.push_back(static_cast<int>(entity.bounding_entities.size()));
-        entities.insert(entities.end(), entity.bounding_entities.begin(), entity.bounding_entities.end());
-    }
-    if (!entities.empty()) {
-        field->AddArray(int_array(entities_name, 1, entities));
-        auto boxes = new_array<vtkDoubleArray>(boxes_name, 6, static_cast<vtkIdType>(data.entities.size()));
-        for (std::size_t i = 0; i < data.entities.size(); ++i)
-            boxes->SetTuple(static_cast<vtkIdType>(i), data.entities[i].bounding_box.data());
-        field->AddArray(boxes);
-    }
-    if (!data.groups.empty()) {
-        vtkNew<vtkStringArray> names;
-        names->SetName(group_names_name);
-        for (const PhysicalGroup& group : data.groups) {
-            groups.insert(groups.end(), {group.dimension, group.tag});
-            names->InsertNextValue(group.name);
-        }
-        field->AddArray(int_array(groups_name, 2, groups));
-        field->AddArray(names);
-    }
-    for (const NodeEntity& entity : data.node_entities)
-        node_entities.insert(node_entities.end(), {entity.dimension, entity.tag});
-    if (!node_entities.empty()) field->AddArray(int_array(node_entities_name, 2, node_entities));
-}
-
 // ---------------------------------------------------------------------------------------------------- grid to mesh
-
-/// Values of an integer array with the given name and size; none if there is no such array.
-std::optional<std::vector<std::int64_t>> integers(vtkFieldData* data, const char* name, int components,
-                                                  std::optional<vtkIdType> tuples) {
-    vtkDataArray* array = data->GetArray(name);
-    if (array == nullptr || array->GetNumberOfComponents() != components ||
-        (tuples && array->GetNumberOfTuples() != *tuples))
-        return std::nullopt;
-    std::vector<std::int64_t> values(static_cast<std::size_t>(array->GetNumberOfValues()));
-    const auto* wide = vtkTypeInt64Array::SafeDownCast(array);
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        const auto id = static_cast<vtkIdType>(i);
-        if (wide != nullptr) {
-            values[i] = wide->GetValue(id);
-            continue;
-        }
-        const double value = array->GetComponent(id / components, static_cast<int>(id % components));
-        if (!(std::abs(value) < 9e15) || value != std::floor(value)) return std::nullopt;
-        values[i] = static_cast<std::int64_t>(value);
-    }
-    return values;
-}
 
 class GridReader {
   public:
-    GridReader(vtkUnstructuredGrid& grid, std::string file, MeshFormat format)
-        : grid_(grid), file_(std::move(file)), format_(format) {}
+    GridReader(vtkUnstructuredGrid& grid, std::string file, MeshFormat format, HexahedronOrder order)
+        : grid_(grid), file_(std::move(file)), format_(format), hexahedron_order_(order) {}
 
     ReadResult read() {
         if (grid_.GetNumberOfCells() == 0 || grid_.GetPoints() == nullptr)
@@ -278,7 +208,8 @@ class GridReader {
             throw Unsupported(fmt::format("{}: the mesh has too many points.", file_));
         read_points();
         read_cells();
-        read_field_data();
+        settle_old_prisms();
+        read_field_data(*grid_.GetFieldData(), data_, notes_);
         if (!is_ours_) note_gmsh_order();
         complete_entities(data_, coordinates_);
         complete_groups(data_);
@@ -295,8 +226,7 @@ class GridReader {
     void read_points();
     void check_connectivity();
     void read_cells();
-    void read_field_data();
-    bool read_entities();
+    void settle_old_prisms();
     void note_gmsh_order();
     std::vector<FieldArray> read_fields(vtkDataSetAttributes& data, FieldArray::Place place,
                                         const MeshTopology& topology);
@@ -304,7 +234,9 @@ class GridReader {
     vtkUnstructuredGrid& grid_;
     std::string file_;
     MeshFormat format_;
+    HexahedronOrder hexahedron_order_;
     bool is_ours_ = false;
+    bool may_be_old_ = false;  ///< written by this program before it had linear prisms in VTK's order
     MeshData data_;
     Coordinates coordinates_;
     std::vector<std::string> notes_;
@@ -314,7 +246,7 @@ void GridReader::read_points() {
     const vtkIdType count = grid_.GetNumberOfPoints();
     coordinates_.resize(count, 3);
     for (vtkIdType i = 0; i < count; ++i) grid_.GetPoint(i, coordinates_.row(i).data());
-    const auto tags = integers(grid_.GetPointData(), node_tag_name, 1, count);
+    const auto tags = integer_values(*grid_.GetPointData(), node_tag_name, 1, count);
     is_ours_ = tags.has_value();
     bool is_usable = tags.has_value();
     std::unordered_set<std::int64_t> seen;
@@ -351,8 +283,8 @@ void GridReader::check_connectivity() {
 void GridReader::read_cells() {
     check_connectivity();
     const vtkIdType count = grid_.GetNumberOfCells();
-    auto tags = integers(grid_.GetCellData(), element_tag_name, 1, count);
-    const auto entities = integers(grid_.GetCellData(), entity_tag_name, 1, count);
+    auto tags = integer_values(*grid_.GetCellData(), element_tag_name, 1, count);
+    const auto entities = integer_values(*grid_.GetCellData(), entity_tag_name, 1, count);
     vtkDataArray* degrees = grid_.GetCellData()->GetHigherOrderDegrees();
     if (degrees != nullptr && (degrees->GetNumberOfComponents() != 3 || degrees->GetNumberOfTuples() != count))
         degrees = nullptr;
@@ -360,6 +292,7 @@ void GridReader::read_cells() {
     std::set<std::pair<int, std::int64_t>> seen;
     bool has_bad_tags = false;
     vtkIdType gmsh_cells = 0;
+    may_be_old_ = is_ours_ && tags && entities && !field_data_version(*grid_.GetFieldData());
     vtkNew<vtkIdList> ids;
     for (vtkIdType cell = 0; cell < count; ++cell) {
         const int vtk_type = grid_.GetCellType(cell);
@@ -367,12 +300,14 @@ void GridReader::read_cells() {
         const vtkIdType points = ids->GetNumberOfIds();
         auto found = known.find({vtk_type, points});
         if (found == known.end()) {
-            const auto readable = readable_cell(vtk_type, points);
+            auto readable = readable_cell(vtk_type, points);
             if (!readable)
                 throw Unsupported(fmt::format(
                     "{}: cell {} is a {} (VTK type {}) with {} points, which is not supported; linear, Lagrange (up to "
                     "order {}) and complete quadratic cells are.",
                     file_, cell, vtkCellTypes::GetClassNameFromTypeId(vtk_type), vtk_type, points, max_order));
+            if (vtk_type == VTK_LAGRANGE_HEXAHEDRON && hexahedron_order_ == HexahedronOrder::vtk8)
+                readable->permutation = permutation_from_vtk8(readable->type.order);
             found = known.emplace(std::pair(vtk_type, points), *readable).first;
         }
         const auto& [type, permutation, is_gmsh_export] = found->second;
@@ -405,70 +340,40 @@ void GridReader::read_cells() {
         for (ElementTag& tag : block.tags) tag.value = next++;
 }
 
-bool GridReader::read_entities() {
-    vtkFieldData* field = grid_.GetFieldData();
-    const auto runs = integers(field, entities_name, 1, std::nullopt);
-    vtkDataArray* boxes = field->GetArray(boxes_name);
-    if (!runs) return field->GetAbstractArray(entities_name) == nullptr;
-    std::size_t next = 0;
-    const auto take = [&] {
-        const std::int64_t value = next < runs->size() ? (*runs)[next] : 0;
-        ++next;
-        return std::abs(value) <= std::numeric_limits<int>::max() ? static_cast<int>(value) : 0;
-    };
-    std::set<EntityKey> seen;
-    while (next < runs->size()) {
-        Entity entity;
-        entity.dimension = take();
-        entity.tag = take();
-        for (auto* tags : {&entity.physical_tags, &entity.bounding_entities}) {
-            const int count = take();
-            if (count < 0 || static_cast<std::size_t>(count) > runs->size()) return false;
-            for (int i = 0; i < count; ++i) tags->push_back(take());
+/// Earlier versions of this program wrote linear prisms with the base that VTK takes for its mirror image. Files of
+/// ours that do not tell their version are of those, or of later ones and have lost it in another program. The two
+/// readings differ in the sense of the prisms and in nothing else, so the other cells decide, or that prisms are
+/// positive.
+void GridReader::settle_old_prisms() {
+    long prisms = 0, others = 0, count = 0;  // positive minus negative ones, as VTK would have them
+    for (const ElementBlock& block : data_.blocks) {
+        if (!may_be_old_ || dimension(block.type.shape) != 3) continue;
+        const auto per_element = static_cast<std::ptrdiff_t>(node_count(block.type));
+        const bool is_quadrilateral_based = block.type.shape == Shape::hexahedron || block.type.shape == Shape::pyramid;
+        const int second = is_quadrilateral_based ? 3 : 2, third = is_quadrilateral_based ? 4 : 3;
+        for (Index i = 0; i < block.size(); ++i) {
+            const Index* nodes = block.nodes.data() + i * per_element;
+            const Eigen::RowVector3d origin = coordinates_.row(nodes[0]);
+            Eigen::Matrix3d edges;
+            edges << coordinates_.row(nodes[1]) - origin, coordinates_.row(nodes[second]) - origin,
+                coordinates_.row(nodes[third]) - origin;
+            const double volume = edges.determinant();
+            (block.type == linear_prism ? prisms : others) += volume > 0.0 ? 1 : volume < 0.0 ? -1 : 0;
+            count += block.type == linear_prism;
         }
-        const bool is_known_dimension = entity.dimension >= 0 && entity.dimension <= 3;
-        if (next > runs->size() || !is_known_dimension || !seen.emplace(entity.dimension, entity.tag).second)
-            return false;
-        const auto place = static_cast<vtkIdType>(data_.entities.size());
-        if (boxes != nullptr && boxes->GetNumberOfComponents() == 6 && place < boxes->GetNumberOfTuples())
-            boxes->GetTuple(place, entity.bounding_box.data());
-        data_.entities.push_back(std::move(entity));
     }
-    return true;
-}
-
-void GridReader::read_field_data() {
-    vtkFieldData* field = grid_.GetFieldData();
-    bool is_whole = read_entities();
-    if (!is_whole) data_.entities.clear();
-    const auto groups = integers(field, groups_name, 2, std::nullopt);
-    auto* names = vtkStringArray::SafeDownCast(field->GetAbstractArray(group_names_name));
-    for (std::size_t i = 0; groups && 2 * i < groups->size(); ++i) {
-        const auto dim = (*groups)[2 * i], tag = (*groups)[2 * i + 1];
-        if (dim < 0 || dim > 3 || tag < 0 || tag > std::numeric_limits<int>::max()) {
-            is_whole = false;
-            continue;
+    if (count == 0) return;
+    const bool is_old = others < 0 ? prisms > 0 : prisms < 0;
+    if (!is_old) return;
+    for (ElementBlock& block : data_.blocks)
+        for (std::size_t first = 0; block.type == linear_prism && first < block.nodes.size(); first += 6) {
+            std::swap(block.nodes[first + 1], block.nodes[first + 2]);
+            std::swap(block.nodes[first + 4], block.nodes[first + 5]);
         }
-        const auto place = static_cast<vtkIdType>(i);
-        const bool has_name = names != nullptr && place < names->GetNumberOfValues();
-        is_whole = is_whole && has_name;
-        data_.groups.push_back({static_cast<int>(dim), static_cast<int>(tag),
-                                has_name ? std::string(names->GetValue(place)) : std::string()});
-    }
-    if (const auto on = integers(field, node_entities_name, 2, grid_.GetNumberOfPoints())) {
-        for (std::size_t i = 0; 2 * i < on->size(); ++i) {
-            const auto dim = (*on)[2 * i], tag = (*on)[2 * i + 1];
-            const bool is_known = dim >= 0 && dim <= 3 && std::abs(tag) <= std::numeric_limits<int>::max();
-            data_.node_entities.push_back(is_known ? NodeEntity{static_cast<int>(dim), static_cast<int>(tag)}
-                                                   : NodeEntity{});
-        }
-    } else if (field->HasArray(node_entities_name) != 0) {
-        is_whole = false;
-    }
-    if (!is_whole)
-        notes_.push_back(
-            "The arrays that tell entities and groups (Curvewright...) do not fit the mesh; what could be "
-            "understood of them was kept.");
+    notes_.push_back(fmt::format(
+        "{} linear prisms stand in the order in which earlier versions of this program wrote them, which is "
+        "not VTK's; they were read in that order, and writing the file again mends it.",
+        count));
 }
 
 /// Gmsh's own export writes curved tetrahedra with Gmsh's node order: nodes then lie far from where a nearly
@@ -559,11 +464,11 @@ void fill_grid(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOpt
     fill_points(grid, mesh, options);
     fill_cells(grid, mesh, options, is_legacy_text);
     if (options.fields != nullptr) fill_fields(grid, mesh, *options.fields, is_legacy_text, notes);
-    fill_field_data(grid, mesh.topology().data());
+    fill_field_data(*grid.GetFieldData(), mesh.topology().data(), options.provenance);
 }
 
-ReadResult mesh_of_grid(vtkUnstructuredGrid& grid, const std::string& file, MeshFormat format) {
-    return GridReader(grid, file, format).read();
+ReadResult mesh_of_grid(vtkUnstructuredGrid& grid, const std::string& file, MeshFormat format, HexahedronOrder order) {
+    return GridReader(grid, file, format, order).read();
 }
 
 }  // namespace curvewright

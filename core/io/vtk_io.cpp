@@ -1,24 +1,27 @@
 #include "core/io/vtk_io.h"
 
 #include <algorithm>
-#include <cerrno>
+#include <charconv>
 #include <climits>
-#include <cstring>
-#include <fstream>
 #include <mutex>
 #include <new>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkIntArray.h>
 #include <vtkLogger.h>
 #include <vtkNew.h>
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
+#include <vtkTypeInt64Array.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
@@ -183,6 +186,35 @@ std::string legacy_text(vtkUnstructuredGridWriter& writer, vtkUnstructuredGrid& 
     return text;
 }
 
+/// The version of a VTK XML file becomes 2.1 if it is an earlier one. VTK renumbers the Lagrange hexahedra of those
+/// once for every piece, which is right for one piece only; told that there is nothing to renumber it leaves them
+/// alone.
+HexahedronOrder hide_old_version(std::string& text) {
+    const std::size_t tag = text.find("<VTKFile");
+    const std::size_t tag_end = text.find('>', tag);
+    if (tag == text.npos || tag_end == text.npos) return HexahedronOrder::vtk9;
+    const std::string_view head = std::string_view(text).substr(tag, tag_end - tag);
+    constexpr std::string_view blanks = " \t\r\n", key = "version";
+    for (std::size_t found = head.find(key); found != head.npos; found = head.find(key, found + 1)) {
+        if (blanks.find(head[found - 1]) == blanks.npos) continue;
+        std::size_t at = head.find_first_not_of(blanks, found + key.size());
+        if (at == head.npos || head[at] != '=') continue;
+        at = head.find_first_not_of(blanks, at + 1);
+        if (at == head.npos || (head[at] != '"' && head[at] != '\'')) continue;
+        const std::size_t end = head.find(head[at], at + 1);
+        if (end == head.npos) continue;
+        const std::string_view version = head.substr(at + 1, end - at - 1);
+        int major = 0, minor = 0;
+        const auto [dot, error] = std::from_chars(version.data(), version.data() + version.size(), major);
+        if (error != std::errc()) continue;
+        if (dot != version.data() + version.size()) std::from_chars(dot + 1, version.data() + version.size(), minor);
+        if (std::pair(major, minor) >= std::pair(2, 1)) return HexahedronOrder::vtk9;
+        text.replace(tag + at + 1, version.size(), "2.1");
+        return HexahedronOrder::vtk8;
+    }
+    return HexahedronOrder::vtk9;
+}
+
 /// The grid that a legacy or XML reader makes of the text. The text must outlive the call.
 template <class Reader>
 vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file, const char* expected,
@@ -210,11 +242,13 @@ vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file
 
 ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format, const TaskContext& context) {
     vtkSmartPointer<vtkUnstructuredGrid> grid;
+    HexahedronOrder order = HexahedronOrder::vtk9;  // legacy files: VTK sees to it
     if (format == MeshFormat::vtu) {
         const char* expected = "a VTK XML unstructured grid";
         if (text.substr(0, 4096).find("UnstructuredGrid") == text.npos)
             throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
         check_xml_arrays(text, file);
+        order = hide_old_version(text);
         vtkNew<vtkXMLUnstructuredGridReader> reader;
         reader->ReadFromInputStringOn();
         reader->SetInputString(text);
@@ -234,13 +268,92 @@ ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format
         grid = run(*reader, file, expected, true);
     }
     context.report("reading", 0.5);
-    ReadResult result = mesh_of_grid(*grid, file, format);
+    ReadResult result = mesh_of_grid(*grid, file, format, order);
     context.report("reading", 1.0);
     return result;
 }
 
-void write_vtk(const std::filesystem::path& path, const std::string& target, const CurvedMesh& mesh, MeshFormat format,
-               const WriteOptions& options, std::vector<std::string>& notes) {
+namespace {
+
+/// XML, in which VTK asks for names that are escaped.
+std::string xml_text(vtkUnstructuredGrid& grid, bool is_text) {
+    escape_names(*grid.GetPointData());
+    escape_names(*grid.GetCellData());
+    vtkNew<vtkXMLUnstructuredGridWriter> writer;
+    writer->WriteToOutputStringOn();
+    writer->SetInputData(&grid);
+    if (is_text) {
+        writer->SetDataModeToAscii();
+    } else {
+        writer->SetDataModeToAppended();
+        writer->EncodeAppendedDataOff();
+        writer->SetCompressorTypeToZLib();
+    }
+    return writer->Write() == 0 ? std::string() : std::move(writer->GetOutputString());
+}
+
+/// The values of an integer array as one of another type; null if they do not fit.
+template <class To, class From>
+vtkSmartPointer<vtkAbstractArray> converted(From& array) {
+    using Value = typename To::ValueType;
+    const auto* values = array.GetPointer(0);
+    const vtkIdType count = array.GetNumberOfValues();
+    if (!std::all_of(values, values + count, [](vtkTypeInt64 value) { return std::in_range<Value>(value); })) return {};
+    vtkNew<To> result;
+    result->SetName(array.GetName());
+    result->SetNumberOfComponents(array.GetNumberOfComponents());
+    result->SetNumberOfTuples(array.GetNumberOfTuples());
+    std::copy(values, values + count, result->GetPointer(0));
+    return result.Get();
+}
+
+template <class To>
+vtkSmartPointer<vtkAbstractArray> with_integers(vtkAbstractArray* array) {
+    vtkSmartPointer<vtkAbstractArray> result;
+    if (auto* wide = vtkTypeInt64Array::SafeDownCast(array)) result = converted<To>(*wide);
+    if (auto* narrow = vtkIntArray::SafeDownCast(array)) result = converted<To>(*narrow);
+    if (auto* bytes = vtkUnsignedCharArray::SafeDownCast(array)) result = converted<To>(*bytes);
+    return result != nullptr ? result : vtkSmartPointer<vtkAbstractArray>(array);
+}
+
+/// Makes all integers, and bytes, those that other programs know in legacy files: of 32 bits ("int") in version 4.2,
+/// where they fit, of 64 bits ("vtktypeint64") in version 5.1.
+void use_common_integers(vtkFieldData& data, bool is_version_5) {
+    std::vector<vtkSmartPointer<vtkAbstractArray>> arrays;
+    for (int i = 0; i < data.GetNumberOfArrays(); ++i)
+        arrays.push_back(is_version_5 ? with_integers<vtkTypeInt64Array>(data.GetAbstractArray(i))
+                                      : with_integers<vtkIntArray>(data.GetAbstractArray(i)));
+    data.Initialize();
+    for (vtkAbstractArray* array : arrays) data.AddArray(array);
+}
+
+std::string legacy_file_text(vtkUnstructuredGrid& grid, const MeshTopology& topology, bool is_text) {
+    vtkNew<vtkUnstructuredGridWriter> writer;
+    writer->SetHeader("Curvewright mesh");
+    // Version 4.2 is what most other programs read, but Lagrange cells only those that read 5.1 as well, and hexahedra
+    // among them VTK takes to be in its old order in 4.2.
+    const auto& blocks = topology.blocks();
+    const bool has_lagrange_cells =
+        std::any_of(blocks.begin(), blocks.end(), [](const ElementBlock& block) { return block.type.order > 1; });
+    writer->SetFileVersion(has_lagrange_cells ? vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_5_1
+                                              : vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
+    for (vtkFieldData* data :
+         std::initializer_list<vtkFieldData*>{grid.GetFieldData(), grid.GetPointData(), grid.GetCellData()})
+        use_common_integers(*data, has_lagrange_cells);
+    writer->SetInputData(&grid);
+    if (is_text) {
+        writer->SetFileTypeToASCII();
+        return legacy_text(*writer, grid);
+    }
+    writer->SetFileTypeToBinary();
+    writer->WriteToOutputStringOn();
+    return writer->Write() == 0 ? std::string() : std::string(writer->GetOutputStdString());
+}
+
+}  // namespace
+
+std::string vtk_text(const std::string& target, const CurvedMesh& mesh, MeshFormat format, const WriteOptions& options,
+                     std::vector<std::string>& notes) {
     const bool is_text = !options.binary.value_or(format == MeshFormat::vtu);
     vtkNew<vtkUnstructuredGrid> grid;
     try {
@@ -248,55 +361,15 @@ void write_vtk(const std::filesystem::path& path, const std::string& target, con
     } catch (const Unsupported& error) {
         throw Unsupported(fmt::format("{}: {}", target, error.what()));
     }
-    {
-        errno = 0;
-        if (!std::ofstream(path))  // VTK would only say that it failed
-            throw InvalidInput(target, 0, fmt::format("the file cannot be written ({}).", std::strerror(errno)));
-    }
+    // In memory, so that whatever the disk has to say is told as for every other file.
     Capture capture;
-    int is_written = 0;
-    if (format == MeshFormat::vtu) {
-        escape_names(*grid->GetPointData());
-        escape_names(*grid->GetCellData());
-        vtkNew<vtkXMLUnstructuredGridWriter> writer;
-        writer->SetFileName(path.c_str());
-        writer->SetInputData(grid);
-        if (is_text) {
-            writer->SetDataModeToAscii();
-        } else {
-            writer->SetDataModeToAppended();
-            writer->EncodeAppendedDataOff();
-            writer->SetCompressorTypeToZLib();
-        }
-        is_written = writer->Write();
-    } else {
-        vtkNew<vtkUnstructuredGridWriter> writer;
-        writer->SetFileName(path.c_str());
-        writer->SetHeader("Curvewright mesh");
-        // Version 4.2 is what most other programs read, but in it VTK takes Lagrange hexahedra to be in its old order.
-        const auto& blocks = mesh.topology().blocks();
-        const bool has_curved_hexahedra = std::any_of(blocks.begin(), blocks.end(), [](const ElementBlock& block) {
-            return block.type.shape == Shape::hexahedron && block.type.order > 1;
-        });
-        writer->SetFileVersion(has_curved_hexahedra ? vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_5_1
-                                                    : vtkUnstructuredGridWriter::VTK_LEGACY_READER_VERSION_4_2);
-        writer->SetInputData(grid);
-        if (is_text) {
-            writer->SetFileTypeToASCII();
-            const std::string text = legacy_text(*writer, *grid);
-            std::ofstream stream(path, std::ios::binary);
-            stream << text;
-            stream.close();
-            is_written = !text.empty() && stream ? 1 : 0;
-        } else {
-            writer->SetFileTypeToBinary();
-            is_written = writer->Write();
-        }
-    }
-    if (is_written == 0 || capture.has_error())
-        throw InvalidInput(target, 0,
-                           fmt::format("the file cannot be written ({}).",
-                                       capture.has_error() ? capture.message() : "is the disk full?"));
+    std::string text =
+        format == MeshFormat::vtu ? xml_text(*grid, is_text) : legacy_file_text(*grid, mesh.topology(), is_text);
+    if (text.empty() || capture.has_error())
+        throw InvalidInput(
+            target, 0,
+            fmt::format("the file cannot be written ({}).", capture.has_error() ? capture.message() : "out of memory"));
+    return text;
 }
 
 }  // namespace curvewright

@@ -79,6 +79,12 @@ void MeshTopology::check_nodes_and_blocks() {
     for (const Entity& entity : data_.entities)
         if (!entities.emplace(entity.dimension, entity.tag).second)
             throw InvalidInput(fmt::format("Entity {} of dimension {} occurs twice.", entity.tag, entity.dimension));
+    for (const PeriodicLink& link : data_.periodic)
+        for (const auto& [node, master] : link.nodes)
+            if (std::min(node, master) < 0 || std::max(node, master) >= node_count())
+                throw InvalidInput(
+                    fmt::format("Periodic entity {} of dimension {} refers to a node that does not exist.", link.tag,
+                                link.dimension));
     std::vector<Index> sorted;
     for (const ElementBlock& block : data_.blocks) {
         if (block.type.order < 1 || block.type.order > max_order)
@@ -128,6 +134,27 @@ void MeshTopology::number_elements() {
                 fmt::format("Element {} occurs twice; element tags must be unique.", element_tag(element).value));
 }
 
+/// Whether the elements on the two sides of a facet number its corners in opposite senses, as they should; none if the
+/// corners are not even in the same order around the facet.
+std::optional<bool> MeshTopology::are_numbered_alike(Facet a, Facet b) const {
+    const auto corners = [this](Facet facet, std::array<Index, 4>& of) {
+        const SubElement& its = reference_element(element_type(facet.element)).facets[facet.local];
+        const auto nodes = element_nodes(facet.element);
+        const int count = corner_count(its.type.shape);
+        for (int i = 0; i < count; ++i) of[i] = nodes[its.nodes[i]];
+        return count;
+    };
+    std::array<Index, 4> first{}, second{};
+    const int count = corners(a, first);
+    corners(b, second);
+    if (count == 1) return a.local != b.local;
+    const auto start = std::find(second.begin(), second.begin() + count, first[0]) - second.begin();
+    if (count == 2) return start != 0;
+    if (second[(start + count - 1) % count] == first[1]) return true;
+    if (second[(start + 1) % count] == first[1]) return false;
+    return std::nullopt;
+}
+
 std::vector<MeshTopology::FacetKey> MeshTopology::facet_keys() const {
     std::vector<FacetKey> keys;
     for (Index element = 0; element < element_count(); ++element) {
@@ -146,6 +173,7 @@ std::vector<MeshTopology::FacetKey> MeshTopology::facet_keys() const {
 }
 
 void MeshTopology::find_boundary(const std::vector<FacetKey>& keys) {
+    WindingFinder winding(element_count());
     for (std::size_t i = 0; i < keys.size();) {
         std::size_t end = i + 1;
         while (end < keys.size() && keys[end].corners == keys[i].corners) ++end;
@@ -157,8 +185,12 @@ void MeshTopology::find_boundary(const std::vector<FacetKey>& keys) {
             for (std::size_t k = i + 1; k < end && meet; ++k) meet = sorted(facet_nodes(keys[k].facet)) == nodes;
         }
         for (std::size_t k = i; k < end && !meet; ++k) boundary_facets_.push_back(keys[k].facet);
+        if (meet && end == i + 2)
+            if (const auto are_alike = are_numbered_alike(keys[i].facet, keys[i + 1].facet))
+                winding.meet(keys[i].facet.element, keys[i + 1].facet.element, *are_alike);
         i = end;
     }
+    winding_ = winding.find();
     std::sort(boundary_facets_.begin(), boundary_facets_.end(), is_before);
 
     role_.assign(static_cast<std::size_t>(node_count()), Role::unused);
@@ -176,12 +208,14 @@ void MeshTopology::find_interfaces(const std::vector<FacetKey>& keys) {
     is_interface_node_.assign(static_cast<std::size_t>(node_count()), 0);
     const std::vector<int> regions = regions_of_blocks(data_);
     std::vector<Corners> stored;  // cells of the facets' dimension
-    std::set<std::pair<int, int>> named;
-    for (const Entity& entity : data_.entities)
+    std::set<std::pair<int, int>> named, borders;
+    for (const Entity& entity : data_.entities) {
         if (!entity.physical_tags.empty()) named.emplace(entity.dimension, entity.tag);
+        if (entity.is_partition_border()) borders.emplace(entity.dimension, entity.tag);
+    }
     for (const ElementBlock& block : data_.blocks) {
         const int dim = curvewright::dimension(block.type.shape);
-        if (dim >= dimension_) continue;
+        if (dim >= dimension_ || borders.contains({dim, block.entity_tag})) continue;
         const auto per_cell = static_cast<std::size_t>(curvewright::node_count(block.type));
         if (dim == dimension_ - 1) {
             for (std::size_t first = 0; first < block.nodes.size(); first += per_cell)

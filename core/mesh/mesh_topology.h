@@ -11,6 +11,9 @@
 
 #include "core/base/ids.h"
 #include "core/basis/element_type.h"
+#include "core/mesh/partitioning.h"
+#include "core/mesh/periodic.h"
+#include "core/mesh/winding.h"
 
 namespace curvewright {
 
@@ -24,6 +27,15 @@ struct Entity {
     std::array<double, 6> bounding_box{};
     /// Signed tags of the entities of dimension - 1 that bound it.
     std::vector<int> bounding_entities;
+    /// Of a part of an entity of a partitioned mesh (MSH 4): the entity that it is a part of, and the partitions it
+    /// belongs to. A border between partitions has a parent of higher dimension. Empty: no part of another entity.
+    std::vector<int> partitions{};
+    int parent_dimension = -1;
+    int parent_tag = 0;
+
+    bool is_partition() const { return !partitions.empty(); }
+    /// Whether it was cut out of an entity of higher dimension, between partitions: no geometry.
+    bool is_partition_border() const { return is_partition() && parent_dimension > dimension; }
 };
 
 /// A named set of entities of one dimension (MSH "physical group"). The name may be empty.
@@ -61,6 +73,9 @@ struct MeshData {
     std::vector<ElementBlock> blocks;
     std::vector<Entity> entities;
     std::vector<PhysicalGroup> groups;
+    /// Entities whose nodes correspond; what it means is up to who reads it.
+    std::vector<PeriodicLink> periodic{};
+    Partitioning partitioning{};
 };
 
 /// A facet (edge in 2D, face in 3D) of an element.
@@ -76,7 +91,8 @@ struct Facet {
 /// nodes.
 class MeshTopology {
   public:
-    /// Checks the data: node positions in range, tags unique, no element twice the same node, entities unique.
+    /// Checks the data: node positions in range, tags unique, no element twice the same node, entities unique,
+    /// periodic nodes in range.
     /// Throws InvalidInput with the tag of the offending thing; no file name (the reader adds it).
     explicit MeshTopology(MeshData data);
 
@@ -103,6 +119,12 @@ class MeshTopology {
     int order() const { return order_; }
     /// The type that all elements share; none if the mesh mixes types or is empty.
     std::optional<ElementType> uniform_type() const { return uniform_type_; }
+
+    /// Whether the element is numbered against the majority of its part of the mesh, see Winding. Its facets and its J
+    /// have the other sign then, whatever the coordinates; nothing is wrong with it.
+    bool is_reversed(Index element) const { return winding_.reversed_count > 0 && winding_.is_reversed[element]; }
+    Index reversed_count() const { return winding_.reversed_count; }
+    const Winding& winding() const { return winding_; }
 
     /// Facets that belong to one element only (all of their nodes, not the corners alone), in the order of the
     /// elements.
@@ -146,8 +168,10 @@ class MeshTopology {
     void check_nodes_and_blocks();
     void number_elements();
     std::vector<FacetKey> facet_keys() const;
+    /// The boundary, and how the elements that meet in the other facets are numbered against each other.
     void find_boundary(const std::vector<FacetKey>& keys);
     void find_interfaces(const std::vector<FacetKey>& keys);
+    std::optional<bool> are_numbered_alike(Facet a, Facet b) const;
 
     MeshData data_;
     std::unordered_map<NodeTag, Index> node_of_tag_;
@@ -157,6 +181,7 @@ class MeshTopology {
     std::optional<ElementType> uniform_type_;
     std::vector<Index> element_block_;     ///< per element: its block
     std::vector<Index> element_in_block_;  ///< per element: its position in the block
+    Winding winding_;
     std::vector<Facet> boundary_facets_;
     std::vector<Role> role_;
     std::vector<Index> boundary_nodes_, interior_nodes_;

@@ -1,6 +1,7 @@
 #include "core/quality/element_size.h"
 
 #include <cmath>
+#include <limits>
 #include <map>
 #include <mutex>
 
@@ -65,6 +66,10 @@ std::vector<double> element_sizes(const CurvedMesh& mesh, const TaskContext& con
         for (std::size_t i = begin; i < end; ++i) {
             const auto element = static_cast<Index>(i);
             const ElementType type = topology.element_type(element);
+            if (type.shape == Shape::pyramid) {
+                sizes[i] = std::numeric_limits<double>::quiet_NaN();
+                continue;
+            }
             sizes[i] = size_of(size_rule(type), dimension(type.shape), mesh.element_coordinates(element));
         }
     });

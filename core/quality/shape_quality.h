@@ -18,10 +18,10 @@ struct ShapeSummary {
 
 /// ideal: nodes × 3; the ideal of an element is the straight-sided element on its corners there.
 /// Where an ideal has no volume, or a quadrilateral, hexahedron or prism is folded, it is similar to nothing: eta = 0.
-/// Throws Unsupported like assess_quality.
+/// Pyramids are left out. Throws Unsupported like assess_quality.
 ShapeSummary assess_shape(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
 
-/// The same of every element, in the order of the mesh.
+/// The same of every element, in the order of the mesh; NaN for pyramids.
 std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context = {});
 
 }  // namespace curvewright

@@ -16,6 +16,14 @@ std::vector<std::string> rules_of(const BoundaryRules& rules) {
     return list;
 }
 
+/// Nothing where no node has to stay.
+void add_nodes(std::vector<ReportParameter>& list, const NodeRules& rules) {
+    if (rules.keeps_vertices) list.push_back({"keep_vertices", true, "only high-order nodes move"});
+    if (!rules.fixed_groups.empty()) list.push_back({"fixed_groups", rules.fixed_groups, "groups whose nodes stay"});
+    if (!rules.fixed_nodes.empty())
+        list.push_back({"fixed_nodes", static_cast<int>(rules.fixed_nodes.size()), "nodes that stay, by tag: so many"});
+}
+
 std::vector<ReportParameter> list_of(const GuaranteedOptions& options) {
     return {{"boundary", rules_of(options.boundary), "what boundary nodes may do, for all and by group"},
             {"feature_angle", options.boundary.feature_angle,
@@ -97,7 +105,13 @@ std::string method_description(const UntangleOptions& options) {
 }
 
 std::vector<ReportParameter> parameters_of(const UntangleOptions& options) {
-    return std::visit([](const auto& of_method) { return list_of(of_method); }, options);
+    return std::visit(
+        [](const auto& of_method) {
+            std::vector<ReportParameter> list = list_of(of_method);
+            add_nodes(list, of_method.nodes);
+            return list;
+        },
+        options);
 }
 
 }  // namespace curvewright

@@ -13,6 +13,7 @@ namespace curvewright {
 namespace {
 
 std::string swatch(const ElementQuality& quality, const ReportColors& colors) {
+    if (quality.validity == Validity::not_assessed) return {};
     const bool is_tangled = quality.validity == Validity::invalid || quality.scaled_jacobian <= 0.0;
     const std::string color = quality.validity == Validity::undecided ? colors.undecided
                               : is_tangled                            ? colors.tangled
@@ -25,6 +26,7 @@ const char* validity_text(Validity validity) {
 }
 
 std::string quality_text(const ElementQuality& quality, const ReportColors& colors) {
+    if (quality.validity == Validity::not_assessed) return to_string(quality.validity);
     return fmt::format("{}{}, {}", swatch(quality, colors), number_text(quality.scaled_jacobian),
                        validity_text(quality.validity));
 }
@@ -97,6 +99,11 @@ std::string quality_section(const RunReport& report, const ReportPictures& pictu
     html += table_row("Elements proved valid", count_text(b.valid), count_text(a.valid));
     html += table_row("Elements tangled", count_text(b.invalid), count_text(a.invalid));
     html += table_row("Elements undecided", count_text(b.undecided), count_text(a.undecided));
+    if (b.not_assessed > 0)
+        html += table_row("Elements not assessed (pyramids)", count_text(b.not_assessed), count_text(a.not_assessed));
+    if (b.reversed > 0)
+        html += table_row("Elements numbered against their neighbours (reversed)", count_text(b.reversed),
+                          count_text(a.reversed));
     html += table_row("Scaled Jacobian, least", number_text(b.min), number_text(a.min));
     html += table_row("Scaled Jacobian, mean", number_text(b.mean), number_text(a.mean));
     html += table_row("Scaled Jacobian, greatest", number_text(b.max), number_text(a.max));
@@ -302,6 +309,8 @@ std::string input_section(const RunReport& report) {
     for (const auto& [name, version] : report.versions)
         versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", escaped(name), escaped(version));
     html += property("Versions", versions);
+    if (!report.made_by.empty())
+        html += property("Made by", "<span class=\"mono\">" + escaped(report.made_by) + "</span>");
     html += "</tbody></table>\n";
     if (!report.input.steps.empty()) {
         html += "<p>Before it was untangled, this was done to the mesh of the file (lines of a session):</p>\n<pre>";

@@ -24,8 +24,11 @@ Json or_null(const std::string& text) {
 }
 
 Json summary_json(const QualitySummary& summary) {
-    return {{"min", summary.min},     {"mean", summary.mean},       {"max", summary.max},
-            {"valid", summary.valid}, {"invalid", summary.invalid}, {"undecided", summary.undecided}};
+    const auto figure = [&](double value) { return summary.assessed() > 0 ? Json(value) : Json(); };
+    return {{"min", figure(summary.min)},           {"mean", figure(summary.mean)},
+            {"max", figure(summary.max)},           {"valid", summary.valid},
+            {"invalid", summary.invalid},           {"undecided", summary.undecided},
+            {"not_assessed", summary.not_assessed}, {"reversed", summary.reversed}};
 }
 
 Json quality_json(const ReportQuality& quality) {
@@ -41,6 +44,7 @@ Json quality_json(const ReportQuality& quality) {
 }
 
 Json element_quality_json(const ElementQuality& quality) {
+    if (quality.validity == Validity::not_assessed) return {{"validity", to_string(quality.validity)}};
     return {{"scaled_jacobian", quality.scaled_jacobian},
             {"validity", to_string(quality.validity)},
             {"min_jacobian", {quality.min_lower, quality.min_upper}},
@@ -162,6 +166,8 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
         {"input", input_json(report)},
         {"method", {{"name", report.method}, {"parameters", parameters}, {"command", or_null(report.command)}}},
         {"versions", versions},
+        {"made_by",
+         {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
         {"before", quality_json(report.before)},
         {"after", quality_json(report.after)},
         {"outcome", outcome_json(report)},

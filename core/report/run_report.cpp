@@ -83,6 +83,7 @@ void describe_certificate(RunReport& report, const ReportSource& source) {
             least = std::min(least, now.min_lower / now.max_upper);
             continue;
         }
+        if (now.validity == Validity::not_assessed) continue;
         report.spoiled += was_valid ? 1 : 0;
         const auto element = static_cast<Index>(i);
         ReportUnproved entry{source.after.topology().element_tag(element).value, now, {}, false, now.scaled_jacobian};
@@ -98,7 +99,8 @@ void describe_certificate(RunReport& report, const ReportSource& source) {
         report.impossible += entry.is_impossible ? 1 : 0;
         report.not_valid.push_back(std::move(entry));
     }
-    if (report.not_valid.empty() && !source.quality_after.elements.empty()) report.proved_least = least;
+    if (report.not_valid.empty() && std::isfinite(least) && !source.quality_after.elements.empty())
+        report.proved_least = least;
 }
 
 std::string now_text() {
@@ -120,6 +122,7 @@ ReportHistogram make_report_histogram(const QualityReport& report) {
     histogram.undecided.resize(ReportHistogram::bins);
     const Histogram scale{0.0, 1.0, std::vector<Index>(ReportHistogram::bins)};
     for (const ElementQuality& quality : report.elements) {
+        if (quality.validity == Validity::not_assessed) continue;
         if (quality.validity == Validity::invalid) {
             ++histogram.tangled;
             continue;
@@ -151,6 +154,7 @@ RunReport collect_report(const ReportSource& source, const TaskContext& context)
         report.command = command_line(UntangleAction{source.options}, source.input.file, "untangled.vtu");
         if (!source.warped_first.empty()) report.command += " --warp-first " + source.warped_first;
     }
+    report.made_by = source.made_by;
     report.versions = program_versions();
 
     report.before = describe_quality(source.quality_before, source.before, source.before.coordinates(), context);

@@ -80,6 +80,7 @@ struct RunReport {
     std::string method, method_title, method_description;
     std::vector<ReportParameter> parameters;
     std::string command;  ///< that does it again; "" = there were steps before
+    std::string made_by;  ///< the command, with all of its options, that made the report; "" = unknown
     std::vector<std::pair<std::string, std::string>> versions;
 
     ReportQuality before, after;
@@ -128,6 +129,7 @@ struct ReportSource {
     const UntangleRun& run;
     const ConvergenceLog& log;
     std::vector<std::pair<std::string, double>> timings;
+    std::string made_by{};  ///< what was asked for as it was asked for: a command line; "" = unknown
 };
 /// Makes the report, but for its pictures. Throws Cancelled.
 RunReport collect_report(const ReportSource& source, const TaskContext& context = {});

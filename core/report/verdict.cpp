@@ -18,16 +18,25 @@ std::string describe_not_valid(const QualitySummary& summary) {
     return summary.invalid == 0 ? undecided : tangled + " and " + undecided;
 }
 
+/// "every one of the 30 elements is proved valid".
+std::string proved_valid(const QualitySummary& summary) {
+    std::string text =
+        fmt::format("every one of the {} is proved valid", counted(summary.assessed(), "element", "elements"));
+    if (summary.not_assessed > 0)
+        text += fmt::format(" (but for {} that {} not assessed)", counted(summary.not_assessed, "pyramid", "pyramids"),
+                            summary.not_assessed == 1 ? "was" : "were");
+    return text;
+}
+
 std::string what_happened(const RunReport& report) {
     const QualitySummary &before = report.before.scaled_jacobian, &after = report.after.scaled_jacobian;
     const Index at_first = before.invalid + before.undecided, now = after.invalid + after.undecided;
     const std::string all = counted(report.elements(), "element", "elements");
     if (report.elements() == 0) return "The mesh has no elements.";
-    if (now == 0 && at_first == 0)
-        return fmt::format("No element was tangled, and every one of the {} is proved valid.", all);
+    const std::string proved = proved_valid(after);
+    if (now == 0 && at_first == 0) return fmt::format("No element was tangled, and {}.", proved);
     if (now == 0)
-        return fmt::format("{} {} made valid; every one of the {} is proved valid.", describe_not_valid(before),
-                           at_first == 1 ? "was" : "were", all);
+        return fmt::format("{} {} made valid; {}.", describe_not_valid(before), at_first == 1 ? "was" : "were", proved);
     std::string text;
     if (at_first == 0)
         text = fmt::format("All elements were valid before; of {} there {} {} now.", all, now == 1 ? "is" : "are",

@@ -7,6 +7,7 @@
 
 #include "core/deform/deformation.h"
 #include "core/edit/drag.h"
+#include "core/untangle/improve.h"
 #include "core/untangle/untangle_options.h"
 #include "core/warp/incremental.h"
 
@@ -31,6 +32,10 @@ struct WarpAction {
 /// The mesh is untangled.
 struct UntangleAction {
     UntangleOptions options;
+};
+/// The quality of a valid mesh is raised.
+struct ImproveAction {
+    ImproveOptions options;
 };
 /// All elements are numbered the other way round.
 struct FlipAction {};
@@ -61,8 +66,8 @@ struct HistoryAction {
 };
 
 /// One thing that was done.
-using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, FlipAction, DragAction, PlaceAction,
-                            HistoryAction>;
+using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, ImproveAction, FlipAction, DragAction,
+                            PlaceAction, HistoryAction>;
 
 /// The nodes that differ, as an action.
 PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after);

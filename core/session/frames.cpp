@@ -37,7 +37,7 @@ struct MotionFrames::Mover {
     }
 };
 
-MotionFrames::MotionFrames(CurvedMesh mesh, std::optional<double> orientation_sign, std::vector<MotionLeg> legs,
+MotionFrames::MotionFrames(CurvedMesh mesh, std::optional<OrientationSigns> orientation_sign, std::vector<MotionLeg> legs,
                            int count)
     : mesh_(std::move(mesh)), orientation_sign_(orientation_sign), legs_(std::move(legs)), count_(count) {
     if (count < 2)

@@ -50,7 +50,7 @@ class MotionFrames : public FrameSource {
   public:
     /// mesh: whose topology and order of numbering the frames have. orientation_sign: what J is judged with; none =
     /// that of the mesh. count: of frames, at least 2. pre: at least one leg, coordinates of the mesh's nodes.
-    MotionFrames(CurvedMesh mesh, std::optional<double> orientation_sign, std::vector<MotionLeg> legs, int count);
+    MotionFrames(CurvedMesh mesh, std::optional<OrientationSigns> orientation_sign, std::vector<MotionLeg> legs, int count);
     ~MotionFrames() override;
 
     int count() const override { return count_; }
@@ -70,7 +70,7 @@ class MotionFrames : public FrameSource {
     Mover& mover_of(std::size_t leg, const TaskContext& context);
 
     CurvedMesh mesh_;
-    std::optional<double> orientation_sign_;
+    std::optional<OrientationSigns> orientation_sign_;
     std::vector<MotionLeg> legs_;
     int count_ = 2;
     std::vector<std::string> straightened_;

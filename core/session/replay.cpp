@@ -6,8 +6,10 @@
 
 #include "core/base/error.h"
 #include "core/io/deformation_file.h"
-#include "core/io/mesh_io.h"
+#include "core/io/matched_mesh.h"
+#include "core/mesh/conformity.h"
 #include "core/quality/quality.h"
+#include "core/untangle/unmended_text.h"
 
 namespace curvewright {
 namespace {
@@ -29,9 +31,14 @@ std::vector<Index> find_nodes(const MeshTopology& topology, const std::vector<No
     return nodes;
 }
 
-Coordinates untangled(const CurvedMesh& mesh, const UntangleOptions& options, const TaskContext& context) {
+Coordinates untangled(const CurvedMesh& mesh, const UntangleOptions& options, const TaskContext& context,
+                      std::vector<std::string>* notes) {
     return std::visit(Overloaded{[&](const GuaranteedOptions& its) {
-                                     return untangle_guaranteed(mesh, its, nullptr, context).coordinates;
+                                     GuaranteedResult result = untangle_guaranteed(mesh, its, nullptr, context);
+                                     if (notes)
+                                         for (const UnmendedElement& element : result.unmended)
+                                             notes->push_back(describe(element, mesh.topology()));
+                                     return std::move(result.coordinates);
                                  },
                                  [&](const SignedAngleOptions& its) {
                                      return untangle_signed_angles(mesh, its, nullptr, context).coordinates;
@@ -42,13 +49,27 @@ Coordinates untangled(const CurvedMesh& mesh, const UntangleOptions& options, co
                       options);
 }
 
+void add_notes(const WarpReport& report, std::vector<std::string>* notes) {
+    if (!notes || report.outside_hull.empty()) return;
+    notes->push_back(fmt::format("{} {} outside the hull of the neighbours: affine weights were taken.",
+                                 report.outside_hull.size(),
+                                 report.outside_hull.size() == 1 ? "node is" : "nodes are"));
+}
+
 Coordinates warped(const CurvedMesh& mesh, const WarpAction& action, const Deformation& deformation,
-                   const TaskContext& context) {
+                   const TaskContext& context, std::vector<std::string>* notes) {
     WarpOptions options = action.options;
     options.prescribed_nodes = prescribed_interior_nodes(mesh, deformation);
-    if (!action.increments) return warp(mesh, apply_deformation(mesh, deformation), options, context).coordinates;
+    if (!action.increments) {
+        WarpResult result = warp(mesh, apply_deformation(mesh, deformation), options, context);
+        add_notes(result.report, notes);
+        return std::move(result.coordinates);
+    }
     const BoundaryPath path = [&](double fraction) { return apply_deformation(mesh, deformation, fraction); };
-    return warp_in_increments(mesh, path, options, *action.increments, context).coordinates;
+    IncrementalResult result = warp_in_increments(mesh, path, options, *action.increments, context);
+    add_notes(result.report, notes);
+    if (notes && !result.increments.is_complete()) notes->push_back(describe(result.increments, mesh.topology()));
+    return std::move(result.coordinates);
 }
 
 Coordinates dragged(const CurvedMesh& mesh, const CurvedMesh& opened, const DragAction& action,
@@ -86,22 +107,28 @@ PlaceAction place_action(const MeshTopology& topology, const Coordinates& before
 }
 
 CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opened,
-                   const std::function<Deformation(const std::string&)>& deformation_of, const TaskContext& context) {
+                   const std::function<Deformation(const std::string&)>& deformation_of, const TaskContext& context,
+                   std::vector<std::string>* notes) {
     return std::visit(
-        Overloaded{
-            [&](const DeformAction& its) {
-                return mesh.with_coordinates(apply_deformation(mesh, deformation_of(its.deformation)));
-            },
-            [&](const WarpAction& its) {
-                return mesh.with_coordinates(warped(mesh, its, deformation_of(its.deformation), context));
-            },
-            [&](const UntangleAction& its) { return mesh.with_coordinates(untangled(mesh, its.options, context)); },
-            [&](const FlipAction&) { return flip_orientation(mesh); },
-            [&](const DragAction& its) { return mesh.with_coordinates(dragged(mesh, opened, its, context)); },
-            [&](const PlaceAction& its) { return mesh.with_coordinates(placed(mesh, its)); },
-            [&](const auto&) -> CurvedMesh {
-                throw InvalidInput("Opening a mesh and walking through the history are nothing that a mesh can do.");
-            }},
+        Overloaded{[&](const DeformAction& its) {
+                       return mesh.with_coordinates(apply_deformation(mesh, deformation_of(its.deformation)));
+                   },
+                   [&](const WarpAction& its) {
+                       return mesh.with_coordinates(warped(mesh, its, deformation_of(its.deformation), context, notes));
+                   },
+                   [&](const UntangleAction& its) {
+                       return mesh.with_coordinates(untangled(mesh, its.options, context, notes));
+                   },
+                   [&](const ImproveAction& its) {
+                       return mesh.with_coordinates(improve(mesh, its.options, nullptr, context).coordinates);
+                   },
+                   [&](const FlipAction&) { return flip_orientation(mesh); },
+                   [&](const DragAction& its) { return mesh.with_coordinates(dragged(mesh, opened, its, context)); },
+                   [&](const PlaceAction& its) { return mesh.with_coordinates(placed(mesh, its)); },
+                   [&](const auto&) -> CurvedMesh {
+                       throw InvalidInput(
+                           "Opening a mesh and walking through the history are nothing that a mesh can do.");
+                   }},
         action);
 }
 
@@ -112,9 +139,10 @@ std::filesystem::path Replay::resolve(const std::string& file) const {
 
 void Replay::perform(const Action& action, const TaskContext& context) {
     if (const auto* open = std::get_if<OpenAction>(&action)) {
-        ReadResult read = read_mesh(resolve(open->mesh), context);
+        ReadResult read = read_matched_mesh(resolve(open->mesh), {}, context);
         history_.assign(1, std::move(read.mesh));
         fields_ = std::move(read.fields);
+        notes_ = std::move(read.notes);
         position_ = 0;
         mesh_file_ = open->mesh;
         return;
@@ -128,16 +156,14 @@ void Replay::perform(const Action& action, const TaskContext& context) {
         position_ = static_cast<std::size_t>(jump->step);
         return;
     }
-    CurvedMesh result = result_of(action, context);
+    std::vector<std::string> notes;
+    CurvedMesh result = curvewright::perform(
+        action, mesh(), opened(), [&](const std::string& file) { return read_deformation(resolve(file), context); },
+        context, &notes);
+    notes_.insert(notes_.end(), notes.begin(), notes.end());
     history_.erase(history_.begin() + static_cast<std::ptrdiff_t>(position_) + 1, history_.end());
     history_.push_back(std::move(result));
     ++position_;
-}
-
-CurvedMesh Replay::result_of(const Action& action, const TaskContext& context) const {
-    return curvewright::perform(
-        action, mesh(), opened(), [&](const std::string& file) { return read_deformation(resolve(file), context); },
-        context);
 }
 
 }  // namespace curvewright

@@ -29,24 +29,27 @@ class Replay {
     const CurvedMesh& opened() const { return history_.front(); }
     /// The arrays of the file.
     const std::vector<FieldArray>& fields() const { return fields_; }
+    /// What the reader, and the actions since the mesh was opened, had to say: one sentence each.
+    const std::vector<std::string>& notes() const { return notes_; }
     /// As it was named.
     const std::string& mesh_file() const { return mesh_file_; }
 
   private:
     std::filesystem::path resolve(const std::string& file) const;
-    CurvedMesh result_of(const Action& action, const TaskContext& context) const;
 
     std::filesystem::path folder_;
     std::string mesh_file_;
     std::vector<FieldArray> fields_;
+    std::vector<std::string> notes_;
     std::vector<CurvedMesh> history_;  ///< states, the opened one first
     std::size_t position_ = 0;
 };
 
 /// What an action makes of a mesh; not for OpenAction and HistoryAction. opened: the first mesh of the session.
-/// deformation_of: the content of a deformation file. Throws like Replay::perform.
+/// deformation_of: the content of a deformation file. notes: what the action has to say besides is added there, unless
+/// null. Throws like Replay::perform.
 CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opened,
                    const std::function<Deformation(const std::string& file)>& deformation_of,
-                   const TaskContext& context = {});
+                   const TaskContext& context = {}, std::vector<std::string>* notes = nullptr);
 
 }  // namespace curvewright

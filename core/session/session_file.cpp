@@ -43,6 +43,19 @@ Json boundary_json(const BoundaryRules& rules) {
     return boundary;
 }
 
+Json tags_json(const std::vector<NodeTag>& tags) {
+    Json list = Json::array();
+    for (const NodeTag tag : tags) list.push_back(tag.value);
+    return list;
+}
+
+/// Nothing where no node has to stay, as before there were such rules.
+void add_nodes(Json& json, const NodeRules& rules) {
+    if (rules.keeps_vertices) json["keep_vertices"] = true;
+    if (!rules.fixed_nodes.empty()) json["fixed_nodes"] = tags_json(rules.fixed_nodes);
+    if (!rules.fixed_groups.empty()) json["fixed_groups"] = rules.fixed_groups;
+}
+
 Json untangle_json(const GuaranteedOptions& options) {
     return {{"action", "untangle"},
             {"method", "guaranteed"},
@@ -50,6 +63,17 @@ Json untangle_json(const GuaranteedOptions& options) {
             {"target", options.target},
             {"shape_floor", options.shape_floor},
             {"boundary", boundary_json(options.boundary)}};
+}
+
+Json improve_json(const ImproveOptions& options) {
+    Json json = {{"action", "improve"},
+                 {"goal", to_string(options.goal)},
+                 {"target", options.target},
+                 {"max_move", options.max_move ? Json(*options.max_move) : Json()},
+                 {"shape_floor", options.shape_floor},
+                 {"boundary", boundary_json(options.boundary)}};
+    add_nodes(json, options.nodes);
+    return json;
 }
 
 Json untangle_json(const SignedAngleOptions& options) {
@@ -67,12 +91,6 @@ Json untangle_json(const UnsignedAngleOptions& options) {
             {"method", "unsigned-angle"},
             {"literal", !options.is_guarded},
             {"max_passes", options.max_passes}};
-}
-
-Json tags_json(const std::vector<NodeTag>& tags) {
-    Json list = Json::array();
-    for (const NodeTag tag : tags) list.push_back(tag.value);
-    return list;
 }
 
 Json to_json(const Action& action) {
@@ -93,8 +111,15 @@ Json to_json(const Action& action) {
                        return json;
                    },
                    [](const UntangleAction& its) -> Json {
-                       return std::visit([](const auto& options) { return untangle_json(options); }, its.options);
+                       return std::visit(
+                           [](const auto& options) {
+                               Json json = untangle_json(options);
+                               add_nodes(json, options.nodes);
+                               return json;
+                           },
+                           its.options);
                    },
+                   [](const ImproveAction& its) -> Json { return improve_json(its.options); },
                    [](const FlipAction&) -> Json {
                        return {{"action", "flip"}};
                    },
@@ -139,14 +164,15 @@ class ActionReader {
         if (action == "deform") return DeformAction{text("deformation")};
         if (action == "warp") return read_warp();
         if (action == "untangle") return UntangleAction{read_untangle()};
+        if (action == "improve") return ImproveAction{read_improve()};
         if (action == "flip") return FlipAction{};
         if (action == "drag") return read_drag();
         if (action == "place") return read_place();
         if (action == "history") return HistoryAction{integer("step", 0, 1 << 30)};
-        fail(
-            fmt::format("unknown action \"{}\"; one of open, deform, warp, untangle, flip, drag, place, history was "
-                        "expected.",
-                        action));
+        fail(fmt::format(
+            "unknown action \"{}\"; one of open, deform, warp, untangle, improve, flip, drag, place, history "
+            "was expected.",
+            action));
     }
 
   private:
@@ -258,7 +284,34 @@ class ActionReader {
         }
         return rules;
     }
+    NodeRules read_nodes() const {
+        NodeRules rules;
+        rules.keeps_vertices = flag("keep_vertices", false);
+        if (has("fixed_nodes")) rules.fixed_nodes = tags("fixed_nodes");
+        if (!has("fixed_groups")) return rules;
+        for (const Json& group : list("fixed_groups")) {
+            if (!group.is_string()) fail(fmt::format("\"fixed_groups\" must be of names, not {}.", brief(group)));
+            rules.fixed_groups.push_back(group.get<std::string>());
+        }
+        return rules;
+    }
+    ImproveOptions read_improve() const {
+        ImproveOptions options;
+        options.goal = choice("goal", options.goal,
+                              {std::pair("jacobian", ImproveGoal::jacobian), std::pair("shape", ImproveGoal::shape)});
+        options.target = number("target", options.target);
+        if (has("max_move") && !at("max_move").is_null()) options.max_move = number_of(at("max_move"), "max_move");
+        options.shape_floor = number("shape_floor", options.shape_floor);
+        options.boundary = read_boundary();
+        options.nodes = read_nodes();
+        return options;
+    }
     UntangleOptions read_untangle() const {
+        UntangleOptions options = read_method();
+        std::visit([this](auto& its) { its.nodes = read_nodes(); }, options);
+        return options;
+    }
+    UntangleOptions read_method() const {
         const std::string method = text("method");
         if (method == "guaranteed") {
             GuaranteedOptions options;
@@ -330,21 +383,6 @@ class ActionReader {
     long line_;
 };
 
-/// For a POSIX shell.
-std::string quoted(const std::string& word) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=,:@%+";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) return word;
-    std::string result = "'";
-    for (const char c : word) result += c == '\'' ? "'\\''" : std::string(1, c);
-    return result + "'";
-}
-
-std::string replay_line(const std::vector<Action>& actions, const std::string& output) {
-    std::string line = fmt::format("curvewright-cli replay - -o {} <<'END'\n", quoted(output));
-    for (const Action& action : actions) line += to_json_line(action) + '\n';
-    return line + "END\n";
-}
-
 }  // namespace
 
 std::string to_json_line(const Action& action) {
@@ -399,74 +437,6 @@ void write_session(const std::filesystem::path& file, const std::vector<Action>&
     std::string text;
     for (const Action& action : actions) text += to_json_line(action) + '\n';
     write_text_file(file, text);
-}
-
-std::string command_line(const Action& action, const std::string& input, const std::string& output) {
-    const Json json = to_json(action);
-    const auto number = [](double value) { return Json(value).dump(); };
-    std::string line;
-    const auto begin = [&](const char* command) {
-        line = fmt::format("curvewright-cli {} {} -o {}", command, quoted(input), quoted(output));
-    };
-    if (const auto* deform = std::get_if<DeformAction>(&action)) {
-        begin("deform");
-        return line + " --deformation " + quoted(deform->deformation);
-    }
-    if (const auto* warp = std::get_if<WarpAction>(&action)) {
-        const WarpOptions& options = warp->options;
-        begin("warp");
-        line += " --deformation " + quoted(warp->deformation);
-        line += fmt::format(" --weights {}", to_string(options.weighting));
-        if (options.weighting == Weighting::elastic) {
-            line += fmt::format(" --poisson-ratio {} --stiffening {}", number(options.poisson_ratio),
-                                number(options.stiffening));
-        } else {
-            line +=
-                fmt::format(" --distance-power {} --sharing-power {} --neighbours {}", number(options.distance_power),
-                            number(options.sharing_power), to_string(options.neighbours));
-        }
-        line += fmt::format(" --solver {}", to_string(options.solver));
-        if (warp->increments) {
-            line += warp->increments->steps == 0 ? std::string(" --increments auto")
-                                                 : fmt::format(" --increments {}", warp->increments->steps);
-            if (!warp->increments->recomputes_weights) line += " --keep-weights";
-        }
-        return line;
-    }
-    if (const auto* untangle = std::get_if<UntangleAction>(&action)) {
-        begin("untangle");
-        line += " --method " + json["method"].get<std::string>();
-        if (const auto* options = std::get_if<GuaranteedOptions>(&untangle->options)) {
-            if (options->improves)
-                line += " --target " + number(options->target);
-            else
-                line += " --valid-only";
-            if (options->shape_floor > 0.0) line += " --shape-floor " + number(options->shape_floor);
-            if (!options->boundary.is_all_fixed())
-                for (const Json& rule : json["boundary"]) line += " --boundary " + quoted(rule.get<std::string>());
-        } else if (const auto* signed_angles = std::get_if<SignedAngleOptions>(&untangle->options)) {
-            const bool is_automatic = signed_angles->beta_choice == BetaChoice::automatic;
-            line += " --beta " + (is_automatic ? std::string("auto") : number(signed_angles->beta));
-            if (!is_automatic && signed_angles->displacement == DisplacementUnit::edge_length)
-                line += " --length-normalised";
-            line += fmt::format(" --max-passes {}", signed_angles->max_passes);
-            if (signed_angles->reject_worse_pass) line += " --reject-worse-pass";
-        } else {
-            if (json["literal"].get<bool>()) line += " --literal";
-            line += fmt::format(" --max-passes {}", json["max_passes"].get<int>());
-        }
-        return line;
-    }
-    if (std::holds_alternative<OpenAction>(action))
-        return fmt::format("curvewright-cli convert {} {}", quoted(input), quoted(output));
-    return replay_line({OpenAction{input}, action}, output);
-}
-
-std::string command_line(const std::vector<Action>& actions, const std::string& output) {
-    const auto* open = actions.empty() ? nullptr : std::get_if<OpenAction>(&actions.front());
-    if (open && actions.size() == 1) return command_line(actions.front(), open->mesh, output);
-    if (open && actions.size() == 2) return command_line(actions.back(), open->mesh, output);
-    return replay_line(actions, output);
 }
 
 }  // namespace curvewright

@@ -189,6 +189,13 @@ std::vector<Facet> find_skin(const MeshTopology& topology, const std::vector<boo
     return skin;
 }
 
+/// The nodes of a face the other way round: the normals of all faces of a mesh are to point to one side.
+std::vector<Index> mirrored(ElementType type, const std::vector<Index>& nodes) {
+    std::vector<Index> result;
+    for (const int node : reference_element(type).mirrored) result.push_back(nodes[static_cast<std::size_t>(node)]);
+    return result;
+}
+
 /// Which of some faces are on the mesh's own surface.
 std::vector<bool> find_outer(const MeshTopology& topology, const std::vector<Facet>& facets) {
     const auto is_before = [](const Facet& a, const Facet& b) {
@@ -243,10 +250,13 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
     if (is_solid_) {
         const std::vector<Facet> facets = is_shrunk() ? all_facets(topology, visible) : find_skin(topology, visible);
         if (!visible.empty() && !is_shrunk()) face_is_outer = find_outer(topology, facets);
-        for (const Facet& facet : facets)
-            add_patch(faces_, facet.element,
-                      reference_element(topology.element_type(facet.element)).facets[facet.local].type,
-                      topology.facet_nodes(facet));
+        for (const Facet& facet : facets) {
+            const ElementType type =
+                reference_element(topology.element_type(facet.element)).facets[facet.local].type;
+            std::vector<Index> nodes = topology.facet_nodes(facet);
+            if (topology.is_reversed(facet.element)) nodes = mirrored(type, nodes);
+            add_patch(faces_, facet.element, type, nodes);
+        }
     } else {
         for (Index element = 0; element < topology.element_count(); ++element) {
             if (!visible.empty() && !visible[element]) continue;

@@ -15,8 +15,8 @@ using event::Position;
 
 /// The angles of an edge in the present positions.
 std::vector<AngleMark> find_angles(const MeshTopology& topology, const Coordinates& x, const InteriorEdge& edge,
-                                   double sign, double& edge_length) {
-    const EdgeTangents tangents(topology, x, edge.triangles, edge.local_edges, {}, sign);
+                                   const OrientationSigns& signs, double& edge_length) {
+    const EdgeTangents tangents(topology, x, edge.triangles, edge.local_edges, {}, signs);
     edge_length = tangents.edge_length;
     const auto nodes = topology.element_nodes(edge.triangles[0]);
     const std::array<Index, 2> ends{nodes[edge.local_edges[0]], nodes[(edge.local_edges[0] + 1) % 3]};

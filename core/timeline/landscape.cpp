@@ -6,6 +6,7 @@
 #include <map>
 
 #include "core/mesh/node_elements.h"
+#include "core/mesh/renumbering.h"
 #include "core/optimize/bfgs.h"
 #include "core/optimize/lbfgs.h"
 #include "core/untangle/distortion.h"
@@ -143,13 +144,13 @@ class FollowingFaceNodes {
 
 class PatchTrial::SignedAngles : public Objective {
   public:
-    SignedAngles(const CurvedMesh& mesh, double sign, const SignedAngleOptions& options, const InteriorEdge& edge,
+    SignedAngles(const CurvedMesh& mesh, const OrientationSigns& signs, const SignedAngleOptions& options, const InteriorEdge& edge,
                  Index focus, const Eigen::RowVector3d& start)
         : options_(options),
           focus_(focus),
           start_(start),
           followers_(mesh.topology(), edge, options.beta_choice == BetaChoice::automatic),
-          angles_(mesh.topology(), mesh.coordinates(), edge_node(edge, focus), sign) {
+          angles_(mesh.topology(), mesh.coordinates(), edge_node(edge, focus), signs) {
         if (options_.beta_choice == BetaChoice::automatic) options_.displacement = DisplacementUnit::edge_length;
         unit_ = displacement_unit(angles_, options_);
     }
@@ -247,8 +248,9 @@ class PatchTrial::UnsignedAngles : public Objective {
 
 class PatchTrial::Energy : public Objective {
   public:
-    Energy(const CurvedMesh& mesh, const Coordinates& ideal, double sign, std::vector<Index> elements, Index focus)
-        : objective_(mesh.topology(), mesh.coordinates(), ideal, sign, {std::move(elements), {focus}}),
+    Energy(const CurvedMesh& mesh, const Coordinates& ideal, const OrientationSigns& signs,
+           std::vector<Index> elements, Index focus)
+        : objective_(mesh.topology(), mesh.coordinates(), ideal, signs, {std::move(elements), {focus}}),
           x_(mesh.coordinates()),
           focus_(focus) {}
     double value(const Eigen::RowVector3d& position, const TrialParameters& parameters) override {
@@ -295,17 +297,17 @@ class PatchTrial::Energy : public Objective {
     std::optional<Eigen::RowVector3d> start_;
 };
 
-PatchTrial::PatchTrial(const CurvedMesh& mesh, double orientation_sign, UntangleMethod method,
+PatchTrial::PatchTrial(const CurvedMesh& mesh, const OrientationSigns& signs, UntangleMethod method,
                        const UntangleOptions& options, std::vector<Index> elements, Index focus,
                        const Eigen::RowVector3d& start, const Coordinates& ideal)
-    : mesh_(mesh), sign_(orientation_sign), focus_(focus), elements_(std::move(elements)) {
+    : mesh_(numbered_alike(mesh)), signs_(signs), focus_(focus), elements_(std::move(elements)) {
     const MeshTopology& topology = mesh_.topology();
     if (method == UntangleMethod::guaranteed) {
         std::erase_if(elements_, [&](Index element) {
             const auto nodes = topology.element_nodes(element);
             return std::find(nodes.begin(), nodes.end(), focus) == nodes.end();
         });
-        auto energy = std::make_unique<Energy>(mesh_, ideal, sign_, elements_, focus);
+        auto energy = std::make_unique<Energy>(mesh_, ideal, signs_, elements_, focus);
         energy->set_start(start);
         objective_ = std::move(energy);
         return;
@@ -317,7 +319,7 @@ PatchTrial::PatchTrial(const CurvedMesh& mesh, double orientation_sign, Untangle
     if (method == UntangleMethod::signed_angles) {
         const auto* given = std::get_if<SignedAngleOptions>(&options);
         objective_ =
-            std::make_unique<SignedAngles>(mesh_, sign_, given ? *given : SignedAngleOptions{}, *edge, focus, start);
+            std::make_unique<SignedAngles>(mesh_, signs_, given ? *given : SignedAngleOptions{}, *edge, focus, start);
     } else {
         const auto* given = std::get_if<UnsignedAngleOptions>(&options);
         objective_ = std::make_unique<UnsignedAngles>(mesh_, given ? *given : UnsignedAngleOptions{}, *edge, focus);
@@ -353,7 +355,7 @@ PatchTrial::Outcome PatchTrial::outcome(const TrialParameters& parameters) {
     for (std::size_t i = 0; i < nodes.size(); ++i) x.row(nodes[i]) = positions[i];
     objective_->complete(x);
     QualityOptions options;
-    options.orientation_sign = sign_;
+    options.orientation_sign = signs_;
     outcome.min_scaled_jacobian = std::numeric_limits<double>::infinity();
     for (const ElementQuality& quality : certify_elements(mesh_.topology(), elements_, x, options)) {
         outcome.min_scaled_jacobian = std::min(outcome.min_scaled_jacobian, quality.scaled_jacobian);

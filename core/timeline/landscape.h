@@ -45,7 +45,7 @@ class PatchTrial {
     /// mesh: the positions in the step. start: of the focus node at the patch's start (signed angles: what the
     /// displacement is measured from). ideal: nodes × 3, whose straight-sided elements are the ideal (guaranteed).
     /// Throws InvalidInput if an angle method's focus is on no edge between its two elements.
-    PatchTrial(const CurvedMesh& mesh, double orientation_sign, UntangleMethod method, const UntangleOptions& options,
+    PatchTrial(const CurvedMesh& mesh, const OrientationSigns& signs, UntangleMethod method, const UntangleOptions& options,
                std::vector<Index> elements, Index focus, const Eigen::RowVector3d& start, const Coordinates& ideal);
     ~PatchTrial();
 
@@ -72,7 +72,7 @@ class PatchTrial {
     class Energy;
 
     CurvedMesh mesh_;
-    double sign_;
+    OrientationSigns signs_;
     Index focus_;
     std::vector<Index> elements_;  ///< at the focus node
     std::unique_ptr<Objective> objective_;

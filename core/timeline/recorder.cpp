@@ -15,7 +15,8 @@ class Recorder::Minimum {
     explicit Minimum(std::span<const ElementQuality> qualities)
         : leaves_(std::bit_ceil(std::max<std::size_t>(1, qualities.size()))),
           tree_(2 * leaves_, std::numeric_limits<double>::infinity()) {
-        for (std::size_t i = 0; i < qualities.size(); ++i) tree_[leaves_ + i] = qualities[i].scaled_jacobian;
+        for (std::size_t i = 0; i < qualities.size(); ++i)
+            if (qualities[i].validity != Validity::not_assessed) tree_[leaves_ + i] = qualities[i].scaled_jacobian;
         for (std::size_t i = leaves_; i-- > 1;) tree_[i] = std::min(tree_[2 * i], tree_[2 * i + 1]);
     }
     void set(Index element, double value) {
@@ -105,6 +106,7 @@ void Recorder::judge(std::span<const Index> elements) {
     const auto qualities = certify_elements(recording_->mesh_.topology(), elements, x_, options, {context_.stop, {}});
     const StepNumber step = recording_->step_count() - 1;
     for (std::size_t i = 0; i < elements.size(); ++i) {
+        if (qualities[i].validity == Validity::not_assessed) continue;
         minimum_->set(elements[i], qualities[i].scaled_jacobian);
         Validity& validity = validity_[elements[i]];
         if (validity == qualities[i].validity) continue;

@@ -109,8 +109,8 @@ namespace {
 template <int Dim>
 class PatchObjectiveOf final : public PatchObjective::Implementation {
   public:
-    PatchObjectiveOf(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal, double sign,
-                     FreePatch given) {
+    PatchObjectiveOf(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
+                     const OrientationSigns& signs, FreePatch given) {
         patch = std::move(given);
         dim = Dim;
         Eigen::RowVector3d low = Eigen::RowVector3d::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -122,7 +122,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         center = 0.5 * (low + high);
         size = std::max((high - low).maxCoeff(), std::numeric_limits<double>::min());
         place_nodes(topology, x);
-        set_ideals(topology, ideal, sign);
+        set_ideals(topology, ideal, signs);
         collect_uses();
         least_.resize(elements_.size());
         values_.resize(elements_.size());
@@ -142,7 +142,11 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             energy += values_[e];
             least_determinant = std::min(least_determinant, least_[e]);
         }
-        double value = options.energy_weight * (energy - count);
+        double value = options.energy_weight * (energy - count), energy_share = options.energy_weight;
+        if (options.power > 1.0) {
+            value = options.energy_weight * std::log(energy / count) / options.power;
+            energy_share = options.energy_weight / (options.power * energy);
+        }
         // Soft minimum over the elements of their evenness; its derivatives are the elements' shares.
         if (has_evenness) {
             double lowest = std::numeric_limits<double>::infinity(), sum = 0.0;
@@ -162,7 +166,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
                     const Use& use = uses_[u];
                     const double* of = gradients_.data() + use.position;
                     for (int d = 0; d < Dim; ++d) {
-                        sum[d] += options.energy_weight * of[d];
+                        sum[d] += energy_share * of[d];
                         if (has_evenness) sum[d] += evenness_[use.element] * of[gradients_.size() / 2 + d];
                     }
                 }
@@ -226,7 +230,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
         gradients_.resize(2 * start_.size());
     }
 
-    void set_ideals(const MeshTopology& topology, const Coordinates& ideal, double sign) {
+    void set_ideals(const MeshTopology& topology, const Coordinates& ideal, const OrientationSigns& signs) {
         double volume = 0.0;
         for (std::size_t e = 0; e < elements_.size(); ++e) {
             Element& element = elements_[e];
@@ -244,7 +248,9 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             volume += lattice.measure * std::abs(sum) / static_cast<double>(samples);
         }
         volume /= static_cast<double>(std::max<std::size_t>(1, elements_.size()));
-        for (Element& element : elements_) {
+        for (std::size_t e = 0; e < elements_.size(); ++e) {
+            Element& element = elements_[e];
+            const double sign = signs.of_element(topology, patch.elements[e]);
             const RowMatrix& gradients = lattice_of(element.type).ideal_gradients;
             const bool is_simplicial = is_simplex(element.type.shape);
             const bool is_own = is_usable(element, sign);
@@ -334,11 +340,19 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
             const double chi_slope = chi / root;
             const double power = Dim == 2 ? 1.0 / chi : 1.0 / std::cbrt(chi * chi);
             const double shape = norm * power / Dim, volume = 0.5 * (d * d + 1.0) / chi;
-            energy += (1.0 - options.theta) * shape + options.theta * volume;
+            const double term = (1.0 - options.theta) * shape + options.theta * volume;
+            double factor = share;
+            if (options.power > 1.0) {
+                const double ratio = term / options.reference, raised = std::pow(ratio, options.power);
+                energy += raised;
+                factor *= options.power * raised / term;
+            } else {
+                energy += term;
+            }
             const double by_d = -(1.0 - options.theta) * shape * (2.0 / Dim) / chi * chi_slope +
                                 options.theta * (d / chi - volume / chi * chi_slope);
             const Square<Dim> by_t = (2.0 * (1.0 - options.theta) * power / Dim) * t + by_d * c;
-            energy_force.template middleRows<Dim>(q * Dim).noalias() = share * inverse.transpose() * by_t;
+            energy_force.template middleRows<Dim>(q * Dim).noalias() = factor * inverse.transpose() * by_t;
             cofactor.template middleRows<Dim>(q * Dim).noalias() = inverse.transpose() * c;
             determinant[q] = d;
             least = std::min(least, d);
@@ -403,7 +417,7 @@ class PatchObjectiveOf final : public PatchObjective::Implementation {
 }  // namespace
 
 PatchObjective::PatchObjective(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
-                               double orientation_sign, FreePatch patch) {
+                               const OrientationSigns& signs, FreePatch patch) {
     for (const Index element : patch.elements) {
         const ElementType type = topology.element_type(element);
         if (simplex_factors(type.shape).empty())
@@ -411,9 +425,9 @@ PatchObjective::PatchObjective(const MeshTopology& topology, const Coordinates& 
                               " is not measured; expected triangles, quadrilaterals, tetrahedra, hexahedra or prisms.");
     }
     if (topology.dimension() == 2)
-        implementation_ = std::make_unique<PatchObjectiveOf<2>>(topology, x, ideal, orientation_sign, std::move(patch));
+        implementation_ = std::make_unique<PatchObjectiveOf<2>>(topology, x, ideal, signs, std::move(patch));
     else
-        implementation_ = std::make_unique<PatchObjectiveOf<3>>(topology, x, ideal, orientation_sign, std::move(patch));
+        implementation_ = std::make_unique<PatchObjectiveOf<3>>(topology, x, ideal, signs, std::move(patch));
 }
 PatchObjective::~PatchObjective() = default;
 PatchObjective::PatchObjective(PatchObjective&&) noexcept = default;

@@ -9,6 +9,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/quality/orientation_signs.h"
 
 namespace curvewright {
 
@@ -29,6 +30,10 @@ struct DistortionOptions {
     double energy_weight = 1.0;  ///< of the sum of the elements' energies
     double least_weight = 1.0;   ///< of the least evenness (soft minimum over the elements), if sharpness > 0
     double mean_weight = 0.0;    ///< of the sum of the elements' evenness, if sharpness > 0
+    /// Above 1: instead of the energies' sum, the logarithm of the mean of this power of what is averaged in them, over
+    /// the power: a smooth stand-in for the logarithm of the largest. Not together with the evenness.
+    double power = 1.0;
+    double reference = 1.0;  ///< value that is divided by before taking the power, so that nothing overflows
 };
 
 /// A part of a mesh whose free nodes are moved while everything else stays.
@@ -43,10 +48,10 @@ class PatchObjective {
   public:
     /// x: positions, nodes × 3; read for the patch's elements only. ideal: nodes × 3; the ideal of an element is the
     /// straight-sided element on its corners there (multilinear, if it is no simplex), or, where that does not have
-    /// volume of the given sign everywhere, a regular element of the patch's mean volume. Triangles, quadrilaterals,
+    /// volume of the element's sign everywhere, a regular element of the patch's mean volume. Triangles, quadrilaterals,
     /// tetrahedra, hexahedra and prisms; throws Unsupported for others.
     PatchObjective(const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
-                   double orientation_sign, FreePatch patch);
+                   const OrientationSigns& signs, FreePatch patch);
     ~PatchObjective();
     PatchObjective(PatchObjective&&) noexcept;
 

@@ -97,7 +97,8 @@ std::vector<EdgeNode> find_interior_edge_nodes(const MeshTopology& topology) {
 }
 
 EdgeTangents::EdgeTangents(const MeshTopology& topology, const Coordinates& x, const std::array<Index, 2>& triangles,
-                           const std::array<int, 2>& local_edges, const std::vector<int>& positions, double sign) {
+                           const std::array<int, 2>& local_edges, const std::vector<int>& positions,
+                           const OrientationSigns& signs) {
     const auto nodes = topology.element_nodes(triangles[0]);
     const auto& local = edge_nodes(topology, triangles[0], local_edges[0]);
     const Eigen::MatrixXd& derivative = end_derivatives(static_cast<int>(local.size()) - 1);
@@ -122,6 +123,7 @@ EdgeTangents::EdgeTangents(const MeshTopology& topology, const Coordinates& x, c
         // In the second triangle the edge usually runs the other way round.
         const Index start = topology.element_nodes(triangle)[edge_nodes(topology, triangle, edge)[0]];
         const bool is_reversed = start != nodes[local[0]];
+        const double sign = signs.of_element(topology, triangle);
         for (int end = 0; end < 2; ++end) {
             // At the start of this triangle's edge it is the following edge (v1); at its end it is the preceding one.
             const bool at_own_start = (end == 0) != is_reversed;
@@ -133,8 +135,9 @@ EdgeTangents::EdgeTangents(const MeshTopology& topology, const Coordinates& x, c
     }
 }
 
-EdgeAngles::EdgeAngles(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node, double sign)
-    : tangents_(topology, x, edge_node.triangles, edge_node.local_edges, {edge_node.position}, sign),
+EdgeAngles::EdgeAngles(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node,
+                       const OrientationSigns& signs)
+    : tangents_(topology, x, edge_node.triangles, edge_node.local_edges, {edge_node.position}, signs),
       weight_{tangents_.weights[0][0], tangents_.weights[1][0]} {}
 
 std::array<double, 4> EdgeAngles::evaluate(const Eigen::Vector2d& position) const {

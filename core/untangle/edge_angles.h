@@ -7,6 +7,7 @@
 #include <Eigen/Core>
 
 #include "core/mesh/curved_mesh.h"
+#include "core/quality/orientation_signs.h"
 
 namespace curvewright {
 
@@ -41,9 +42,10 @@ std::vector<EdgeNode> find_interior_edge_nodes(const MeshTopology& topology);
 /// edge's own nodes. All leave the end.
 struct EdgeTangents {
     /// positions: the variable nodes' positions in the edge of triangles[0] (2 and up). The other nodes' positions are
-    /// read from x. sign: orientation of the mesh, +1 or -1.
+    /// read from x. signs: orientation of the mesh.
     EdgeTangents(const MeshTopology& topology, const Coordinates& x, const std::array<Index, 2>& triangles,
-                 const std::array<int, 2>& local_edges, const std::vector<int>& positions, double sign);
+                 const std::array<int, 2>& local_edges, const std::vector<int>& positions,
+                 const OrientationSigns& signs);
 
     /// Per end, the edge's own tangent: fixed + sum over the variable nodes of weight × node.
     std::array<Eigen::Vector2d, 2> fixed{};
@@ -61,8 +63,9 @@ struct EdgeTangents {
 /// arccos(v1 · v2): negative means that the element is tangled there.
 class EdgeAngles {
   public:
-    /// sign: orientation of the mesh, +1 or -1. The other nodes' positions are read now.
-    EdgeAngles(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node, double sign);
+    /// signs: orientation of the mesh. The other nodes' positions are read now.
+    EdgeAngles(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node,
+               const OrientationSigns& signs);
 
     /// Radians, in (-pi, pi]; order: triangle 0 at the edge's start and end, triangle 1 at the edge's start and end.
     std::array<double, 4> evaluate(const Eigen::Vector2d& position) const;

@@ -44,10 +44,11 @@ FaceNodes::FaceNodes(int order, FaceRule rule) {
                                                  : blend_weights(element, element.lattice[(*local_nodes_)[i]]);
 }
 
-void FaceNodes::place(std::span<const Index> nodes, Coordinates& x) const {
+void FaceNodes::place(std::span<const Index> nodes, Coordinates& x, const KeptNodes* kept) const {
     // Relative to a corner, so that rounding does not grow with the distance from the origin.
     const Eigen::RowVector2d origin = x.row(nodes[0]).head<2>();
     for (Eigen::Index i = 0; i < weights_.rows(); ++i) {
+        if (kept && kept->is_kept(nodes[(*local_nodes_)[i]])) continue;
         Eigen::RowVector2d sum = Eigen::RowVector2d::Zero();
         for (std::size_t j = 1; j < nodes.size(); ++j) {
             const double weight = weights_(i, static_cast<Eigen::Index>(j));

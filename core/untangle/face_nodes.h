@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 
 #include "core/mesh/curved_mesh.h"
+#include "core/untangle/node_rules.h"
 
 namespace curvewright {
 
@@ -30,8 +31,8 @@ class FaceNodes {
 
     /// Positions in the element of the nodes that place() moves.
     const std::vector<int>& local_nodes() const { return *local_nodes_; }
-    /// nodes: the triangle's. Writes x and y of its face nodes.
-    void place(std::span<const Index> nodes, Coordinates& x) const;
+    /// nodes: the triangle's. Writes x and y of its face nodes, but for those that are kept (null: none is).
+    void place(std::span<const Index> nodes, Coordinates& x, const KeptNodes* kept = nullptr) const;
 
   private:
     const std::vector<int>* local_nodes_;

@@ -6,6 +6,7 @@
 #include "core/base/task.h"
 #include "core/boundary/boundary_rules.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/untangle/node_rules.h"
 #include "core/untangle/observer.h"
 
 namespace curvewright {
@@ -35,6 +36,8 @@ struct GuaranteedOptions {
     double shape_floor = 0.0;
     /// What the boundary's nodes may do.
     BoundaryRules boundary;
+    /// Nodes that stay in any case.
+    NodeRules nodes;
     /// When cancelled, return the best mesh so far, with StopReason::cancelled, instead of throwing Cancelled.
     bool keeps_best_on_cancel = false;
 };
@@ -75,6 +78,8 @@ struct GuaranteedResult {
 /// The boundary stays bit for bit unless the options say otherwise; sliding nodes stay on the boundary as it was read
 /// (see BoundaryShape), so the new boundary interpolates it. Elements that are proved to be impossible are left out of
 /// the energy, so that they do not hold up the others.
+///
+/// A mesh without elements that are tangled or undecided comes back bit for bit: improve() raises the quality of such.
 ///
 /// Never returns a mesh that is worse than the one given: more invalid elements or, with as many, a lower least scaled
 /// Jacobian. Same result for any number of threads, with and without observer. Throws Unsupported for other elements,

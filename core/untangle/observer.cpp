@@ -1,5 +1,7 @@
 #include "core/untangle/observer.h"
 
+#include <utility>
+
 namespace curvewright {
 
 const char* to_string(StopReason reason) {
@@ -20,6 +22,15 @@ const char* to_string(StopReason reason) {
 
 const char* untangle_event::to_string(Placement placement) {
     return placement == Placement::straightened ? "straightened" : "put back";
+}
+
+void GivenNumbering::on_event(const UntangleEvent& event) {
+    UntangleEvent its = event;
+    if (auto* started = std::get_if<untangle_event::Started>(&its)) started->mesh = &given_;
+    if (auto* certified = std::get_if<untangle_event::PatchCertified>(&its))
+        if (given_.topology().is_reversed(certified->worst_element))
+            std::swap(certified->worst_point[0], certified->worst_point[1]);
+    observer_->on_event(its);
 }
 
 untangle_event::NodesPlaced placed_nodes(untangle_event::Placement placement, const Coordinates& before,

@@ -141,4 +141,20 @@ class UntangleObserver {
     virtual void on_event(const UntangleEvent& event) = 0;
 };
 
+/// What a method tells while it works on a mesh numbered alike, in the numbering of the mesh as it was given.
+class GivenNumbering : public UntangleObserver {
+  public:
+    /// observer: may be null. Both must outlive this object.
+    GivenNumbering(const CurvedMesh& given, UntangleObserver* observer) : given_(given), observer_(observer) {}
+    void on_event(const UntangleEvent& event) override;
+    /// Whom the method is to tell: the observer itself if nothing is reversed.
+    UntangleObserver* listener() {
+        return observer_ != nullptr && given_.topology().reversed_count() > 0 ? this : observer_;
+    }
+
+  private:
+    const CurvedMesh& given_;
+    UntangleObserver* observer_;
+};
+
 }  // namespace curvewright

@@ -39,13 +39,16 @@ BestOfPatch::BestOfPatch(const FreePatch& patch, const MeshState& state)
       feet_(feet_of(patch.nodes, state.feet)) {}
 
 bool BestOfPatch::offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities) {
-    const Standing standing(qualities);
-    if (!standing.is_better_than(standing_)) return false;
-    standing_ = standing;
+    if (!Standing(qualities).is_better_than(standing_)) return false;
+    take(x, feet, std::move(qualities));
+    return true;
+}
+
+void BestOfPatch::take(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities) {
+    standing_ = Standing(qualities);
     qualities_ = std::move(qualities);
     positions_ = positions_of(patch_->nodes, x);
     feet_ = feet;
-    return true;
 }
 
 void BestOfPatch::restore(MeshState& state) const {

@@ -23,6 +23,8 @@ class BestOfPatch {
     BestOfPatch(const FreePatch& patch, const MeshState& state);
     /// Takes the patch's part of the positions if it stands better, and says so. feet: of the patch's sliding nodes.
     bool offer(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities);
+    /// Takes the patch's part of the positions whatever it was before.
+    void take(const Coordinates& x, const std::vector<Foot>& feet, std::vector<ElementQuality> qualities);
     /// Makes the best state the present one.
     void restore(MeshState& state) const;
     const Standing& standing() const { return standing_; }

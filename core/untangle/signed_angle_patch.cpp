@@ -55,8 +55,8 @@ SignedAngleMinimum minimise_signed_angles(const EdgeAngles& angles, const Eigen:
     return {position(minimum.point), minimum.iterations, objective(start), minimum.value};
 }
 
-PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node, double sign,
-                          JacobianBounds& bounds) {
+PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node,
+                          const OrientationSigns& signs, JacobianBounds& bounds) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     PatchQuality quality{0, infinity, 0.0};
     std::vector<double> relative;  // Bézier coefficients of both
@@ -65,7 +65,7 @@ PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, co
         const auto nodes = topology.element_nodes(triangle);
         positions.resize(static_cast<Eigen::Index>(nodes.size()), 3);
         for (std::size_t i = 0; i < nodes.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = x.row(nodes[i]);
-        const ElementQuality element = bounds.bound(positions, sign, {});
+        const ElementQuality element = bounds.bound(positions, signs.of_element(topology, triangle), {});
         quality.not_valid += element.validity != Validity::valid;
         quality.minimum = std::min(quality.minimum, element.scaled_jacobian);
 

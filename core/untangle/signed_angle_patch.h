@@ -34,9 +34,9 @@ struct PatchQuality {
     /// Unlike the scaled Jacobian of a tangled triangle it rises when one of several bad places gets better.
     double soft_minimum = 0.0;
 };
-/// Judges the two triangles at an edge. sign: of the mesh's orientation.
-PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node, double sign,
-                          JacobianBounds& bounds);
+/// Judges the two triangles at an edge. signs: of the mesh's orientation.
+PatchQuality assess_patch(const MeshTopology& topology, const Coordinates& x, const EdgeNode& edge_node,
+                          const OrientationSigns& signs, JacobianBounds& bounds);
 
 /// More elements that are not proved valid, or as many and a lower minimum.
 bool is_worse(const QualitySummary& after, const QualitySummary& before);

@@ -1,9 +1,13 @@
 #include "core/untangle/signed_angles.h"
 
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "core/base/error.h"
 #include "core/base/parallel.h"
+#include "core/mesh/conformity.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/quality.h"
 #include "core/untangle/face_nodes.h"
 #include "core/untangle/signed_angle_patch.h"
@@ -38,21 +42,46 @@ class SignedAngleUntangler {
           options_(options),
           observer_(observer),
           context_(context),
-          sign_(orientation_sign(find_orientation(mesh), mesh)),
+          signs_(orientation_signs(mesh)),
           bounds_(*topology_.uniform_type()),
           face_nodes_(topology_.order(), topology_.order() > 3 ? FaceRule::blend : FaceRule::mean),
+          kept_(options.nodes, topology_),
           edge_nodes_(find_interior_edge_nodes(topology_)),
-          x_(mesh.coordinates()) {}
+          x_(mesh.coordinates()) {
+        std::erase_if(edge_nodes_, [this](const EdgeNode& edge_node) { return kept_.is_kept(edge_node.node); });
+    }
 
     UntangleResult run() {
         tell(event::Started{&mesh_});
         UntangleResult result;
+        Coordinates last = x_;  // after the last whole pass
+        try {
+            make_passes(result, last);
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result.reason = StopReason::cancelled;
+            if (observer_) tell(placed_nodes(event::Placement::put_back, x_, last));
+            x_ = last;
+        }
+        tell(event::Finished{result.reason, result.passes});
+        result.coordinates = std::move(x_);
+        return result;
+    }
+
+  private:
+    template <class Event>
+    void tell(Event&& event) {
+        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
+    }
+
+    void make_passes(UntangleResult& result, Coordinates& last) {
+        QualityReport quality = assess_quality(mesh_, {}, context_);
         result.reason = StopReason::pass_limit;
+        // A valid mesh is not changed; see improve().
+        if (quality.summary.invalid + quality.summary.undecided == 0) result.reason = StopReason::untangled;
         const bool needs_quality = observer_ != nullptr || options_.reject_worse_pass;
-        QualityReport quality;
-        if (options_.reject_worse_pass) quality = assess_quality(mesh_, {}, context_);
         while (result.passes < options_.max_passes && result.reason == StopReason::pass_limit) {
-            const Coordinates before = x_;
+            const Coordinates before = last = x_;
             const int pass = result.passes + 1;
             tell(event::PassBegan{pass});
             move_edge_nodes(pass);
@@ -74,15 +103,6 @@ class SignedAngleUntangler {
             result.passes = pass;
             if (change <= options_.convergence) result.reason = StopReason::converged;
         }
-        tell(event::Finished{result.reason, result.passes});
-        result.coordinates = std::move(x_);
-        return result;
-    }
-
-  private:
-    template <class Event>
-    void tell(Event&& event) {
-        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
     void move_edge_nodes(int pass) {
@@ -106,7 +126,7 @@ class SignedAngleUntangler {
     }
 
     SignedAngleMinimum move(const EdgeNode& edge_node) {
-        const EdgeAngles angles(topology_, x_, edge_node, sign_);
+        const EdgeAngles angles(topology_, x_, edge_node, signs_);
         const SignedAngleMinimum minimum =
             minimise_signed_angles(angles, x_.row(edge_node.node).head<2>(), displacement_unit(angles, options_),
                                    options_.beta, options_, observer_, edge_node.node);
@@ -121,20 +141,20 @@ class SignedAngleUntangler {
         event::PatchEnded ended;
         ended.nodes = {edge_node.node};
         ended.beta = options_.beta;
-        ended.min_scaled_jacobian_before = assess_patch(topology_, x_, edge_node, sign_, bounds_).minimum;
+        ended.min_scaled_jacobian_before = assess_patch(topology_, x_, edge_node, signs_, bounds_).minimum;
         const SignedAngleMinimum minimum = move(edge_node);
         ended.iterations = minimum.iterations;
         ended.objective_before = minimum.objective_before;
         ended.objective_after = minimum.objective_after;
         ended.positions = {position_of(x_, edge_node.node)};
-        ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge_node, sign_, bounds_).minimum;
+        ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge_node, signs_, bounds_).minimum;
         tell(std::move(ended));
     }
 
     void move_face_nodes() {
         if (face_nodes_.local_nodes().empty()) return;
         for (Index triangle = 0; triangle < topology_.element_count(); ++triangle)
-            face_nodes_.place(topology_.element_nodes(triangle), x_);
+            face_nodes_.place(topology_.element_nodes(triangle), x_, &kept_);
         if (!observer_) return;
         event::FaceNodesMoved moved;
         for (Index triangle = 0; triangle < topology_.element_count(); ++triangle)
@@ -150,9 +170,10 @@ class SignedAngleUntangler {
     const SignedAngleOptions& options_;
     UntangleObserver* observer_;
     const TaskContext& context_;
-    double sign_;
+    OrientationSigns signs_;
     JacobianBounds bounds_;
     FaceNodes face_nodes_;
+    const KeptNodes kept_;
     std::vector<EdgeNode> edge_nodes_;
     std::vector<std::vector<std::size_t>> batches_;
     Coordinates x_;
@@ -163,9 +184,12 @@ class SignedAngleUntangler {
 UntangleResult untangle_signed_angles(const CurvedMesh& mesh, const SignedAngleOptions& options,
                                       UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
+    require_conforming(mesh, context);
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
     if (options.beta_choice == BetaChoice::automatic)
-        return untangle_with_chosen_beta(mesh, options, observer, context);
-    return SignedAngleUntangler(mesh, options, observer, context).run();
+        return untangle_with_chosen_beta(alike.mesh(), options, given.listener(), context);
+    return SignedAngleUntangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

@@ -2,6 +2,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/untangle/node_rules.h"
 #include "core/untangle/observer.h"
 #include "core/untangle/untangle_result.h"
 
@@ -41,6 +42,11 @@ struct SignedAngleOptions {
     bool reject_worse_pass = false;
     /// Automatic choice: edges whose two triangles have at least this scaled Jacobian are left alone.
     double target = 0.5;
+    /// Nodes that stay in any case.
+    NodeRules nodes;
+    /// When cancelled, return the mesh after the last whole pass (automatic choice: the best such), with
+    /// StopReason::cancelled, instead of throwing Cancelled.
+    bool keeps_best_on_cancel = false;
 };
 
 /// Untangles curved triangles of order 2 and up by signed angles (thesis, chapter 4, Alg. 6): pass 1 moves every

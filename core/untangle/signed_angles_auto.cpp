@@ -42,9 +42,10 @@ class AutomaticUntangler {
           options_(options),
           observer_(observer),
           context_(context),
-          sign_(orientation_sign(find_orientation(mesh), mesh)),
+          signs_(orientation_signs(mesh)),
           face_nodes_(topology_.order(), FaceRule::blend),
-          edges_(group_by_edge(find_interior_edge_nodes(topology_))),
+          kept_(options.nodes, topology_),
+          edges_(group_by_edge(movable_edge_nodes())),
           colours_(colour_edges(edges_, topology_.element_count())),
           tried_(edges_.size(), 0),
           changed_(static_cast<std::size_t>(topology_.element_count()), 0),
@@ -57,7 +58,33 @@ class AutomaticUntangler {
         // A patch with a tangled triangle is judged by its soft minimum, so the mesh's minimum may fall on the way to
         // validity: the best state of all passes is returned, and the last pass ends with it.
         UntangleResult result{x_, 0, StopReason::pass_limit};
+        try {
+            make_passes(result);
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result.reason = StopReason::cancelled;
+            if (observer_) tell(placed_nodes(event::Placement::put_back, x_, result.coordinates));
+        }
+        tell(event::Finished{result.reason, result.passes});
+        return result;
+    }
+
+  private:
+    template <class Event>
+    void tell(Event&& event) {
+        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
+    }
+
+    std::vector<EdgeNode> movable_edge_nodes() const {
+        std::vector<EdgeNode> nodes = find_interior_edge_nodes(topology_);
+        std::erase_if(nodes, [this](const EdgeNode& edge_node) { return kept_.is_kept(edge_node.node); });
+        return nodes;
+    }
+
+    void make_passes(UntangleResult& result) {
         QualitySummary best = assess_quality(mesh_, {}, context_).summary;
+        // A valid mesh is not changed; see improve().
+        if (best.invalid + best.undecided == 0) result.reason = StopReason::untangled;
         for (int pass = 1; pass <= options_.max_passes && result.reason == StopReason::pass_limit; ++pass) {
             const Coordinates before = x_;
             tell(event::PassBegan{pass});
@@ -75,14 +102,6 @@ class AutomaticUntangler {
                                   &x_});
             result.passes = pass;
         }
-        tell(event::Finished{result.reason, result.passes});
-        return result;
-    }
-
-  private:
-    template <class Event>
-    void tell(Event&& event) {
-        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
     /// One pass over the edges, colour by colour. Returns whether one was moved.
@@ -132,7 +151,7 @@ class AutomaticUntangler {
     /// Moves an edge by the best of the trials, if that gains something. Reads and writes nodes of its two triangles
     /// only, so edges of one colour do not meet.
     bool improve(const EdgeNodes& edge, JacobianBounds& bounds) {
-        const PatchQuality start = assess_patch(topology_, x_, edge[0], sign_, bounds);
+        const PatchQuality start = assess_patch(topology_, x_, edge[0], signs_, bounds);
         if (start.minimum >= options_.target) return false;
         const std::vector<Index> nodes = nodes_of(edge);
         Eigen::MatrixX2d start_positions(static_cast<Eigen::Index>(nodes.size()), 2);
@@ -147,7 +166,7 @@ class AutomaticUntangler {
         double best_merit = merit(start, start) + least_gain;
         const auto try_out = [&](const Trial& trial) {
             move(edge, trial, nullptr);
-            const PatchQuality quality = assess_patch(topology_, x_, edge[0], sign_, bounds);
+            const PatchQuality quality = assess_patch(topology_, x_, edge[0], signs_, bounds);
             restore();
             const bool is_refused =
                 quality.not_valid > start.not_valid || (quality.not_valid == 0 && quality.minimum < start.minimum);
@@ -181,7 +200,7 @@ class AutomaticUntangler {
         if (trial.straightens) straighten(edge, observer);
         SignedAngleMinimum total;
         for (const EdgeNode& node : edge) {
-            const EdgeAngles angles(topology_, x_, node, sign_);
+            const EdgeAngles angles(topology_, x_, node, signs_);
             const SignedAngleMinimum minimum =
                 minimise_signed_angles(angles, x_.row(node.node).head<2>(), displacement_unit(angles, options_),
                                        trial.beta(), options_, observer, node.node);
@@ -190,7 +209,7 @@ class AutomaticUntangler {
             total.objective_before += minimum.objective_before;
             total.objective_after += minimum.objective_after;
         }
-        for (const Index triangle : edge[0].triangles) face_nodes_.place(topology_.element_nodes(triangle), x_);
+        for (const Index triangle : edge[0].triangles) face_nodes_.place(topology_.element_nodes(triangle), x_, &kept_);
         return total;
     }
 
@@ -227,7 +246,7 @@ class AutomaticUntangler {
             ended.iterations = minimum.iterations;
             ended.objective_before = minimum.objective_before;
             ended.objective_after = minimum.objective_after;
-            ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge[0], sign_, bounds).minimum;
+            ended.min_scaled_jacobian_after = assess_patch(topology_, x_, edge[0], signs_, bounds).minimum;
         }
         ended.positions = positions();
         tell(std::move(ended));
@@ -238,8 +257,9 @@ class AutomaticUntangler {
     SignedAngleOptions options_;
     UntangleObserver* observer_;
     const TaskContext& context_;
-    double sign_;
+    OrientationSigns signs_;
     FaceNodes face_nodes_;
+    const KeptNodes kept_;
     std::vector<EdgeNodes> edges_;
     std::vector<std::vector<std::size_t>> colours_;
     /// Number of the colour step (clock_) at which an edge was last tried and a triangle last changed; 0 = never.

@@ -101,15 +101,19 @@ struct Samples {
 struct Judged {
     Samples samples;
     std::span<const Index> nodes;
+    Eigen::MatrixX3d given;  ///< in the mesh's unit
     Eigen::MatrixX3d x;
-    double sign, scale = 0.0, rounding = 0.0;
+    double unit, sign, scale = 0.0, rounding = 0.0;
     Eigen::VectorXd now;
 
-    Judged(const CurvedMesh& mesh, Index element, double sign_of_mesh, const Eigen::RowVector3d& center, double extent)
+    Judged(const CurvedMesh& mesh, Index element, const OrientationSigns& signs, const Eigen::RowVector3d& center,
+           double extent)
         : samples(mesh.topology().element_type(element)),
           nodes(mesh.topology().element_nodes(element)),
-          x((mesh.element_coordinates(element).rowwise() - center) / extent),
-          sign(sign_of_mesh) {
+          given(mesh.element_coordinates(element)),
+          x((given.rowwise() - center) / extent),
+          unit(extent),
+          sign(signs.of_element(mesh.topology(), element)) {
         now = samples.jacobians(x, sign);
         scale = now.cwiseAbs().maxCoeff();
         if (!(scale > 0.0)) return;
@@ -146,24 +150,68 @@ struct Judged {
     }
 };
 
+/// Bounds of the rounding error of what is made of an element's nodes at one of its corners. Differences to the
+/// corner's position are exact up to half an ulp, so that edges that lie in an axis-parallel line give exact zeros.
+struct CornerTangents {
+    Eigen::MatrixXd tangents;  ///< d x / d xi_k in row k, unit as Judged
+    Eigen::MatrixXd errors;    ///< of the entries
+
+    CornerTangents(const Judged& element, int corner) {
+        const int dim = dimension(element.samples.type.shape);
+        const Eigen::MatrixXd steps =
+            (element.given.leftCols(dim).rowwise() - element.given.row(corner).head(dim)) / element.unit;
+        tangents.resize(dim, dim);
+        errors.resize(dim, dim);
+        const double roundings = static_cast<double>(element.x.rows() + 6) * std::numeric_limits<double>::epsilon();
+        for (int k = 0; k < dim; ++k) {
+            const auto weights = element.samples.basis.gradients[static_cast<std::size_t>(k)].row(corner);
+            tangents.row(k) = weights * steps;
+            errors.row(k) = roundings * (weights.cwiseAbs() * steps.cwiseAbs());
+        }
+    }
+};
+
+/// Sum of the products that a determinant is made of, all with a plus.
+double permanent(const Eigen::MatrixXd& m) {
+    if (m.rows() == 2) return m(0, 0) * m(1, 1) + m(0, 1) * m(1, 0);
+    double sum = 0.0;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        sum += m(0, i) * (m(1, j) * m(2, k) + m(1, k) * m(2, j));
+    }
+    return sum;
+}
+
+/// Of the determinant of a matrix whose entries have errors.
+double determinant_error(const Eigen::MatrixXd& m, const Eigen::MatrixXd& errors) {
+    constexpr double unit = 16.0 * std::numeric_limits<double>::epsilon();
+    const Eigen::MatrixXd size = m.cwiseAbs();
+    return permanent(size + errors) - permanent(size) + unit * permanent(size + errors);
+}
+
+/// A linear form of a tangent, scaled to length one, and the error of its entries.
+struct TangentForm {
+    Eigen::VectorXd form;
+    double error = 0.0;
+};
+
 /// J at a corner as a linear form of the tangent of the edge that goes from there to another corner, scaled to length
 /// one; zero where the other tangents leave J no choice. None if their nodes may move.
-std::optional<Eigen::VectorXd> tangent_form(const Judged& element, int corner, int end,
-                                            const std::function<bool(Index)>& may_move) {
+std::optional<TangentForm> tangent_form(const Judged& element, int corner, int end,
+                                        const std::function<bool(Index)>& may_move) {
     const ReferenceElement& reference = reference_element(element.samples.type);
     const int dim = reference.dimension;
     const Eigen::MatrixX3d points = reference_nodes({element.samples.type.shape, 1});
-    Eigen::MatrixXd tangents(dim, dim), directions(dim, dim);
+    Eigen::MatrixXd tangents(dim, dim), errors(dim, dim), directions(dim, dim);
+    const CornerTangents here(element, corner);
     int row = 0, replaced = 0;
     for (int other = 0; other <= dim; ++other) {
         if (other == corner) continue;
         if (other == end) replaced = row;
         const Eigen::RowVector3d along = points.row(other) - points.row(corner);
-        Eigen::RowVectorXd tangent = Eigen::RowVectorXd::Zero(dim);
-        for (int d = 0; d < dim; ++d)
-            tangent += along[d] * (element.samples.basis.gradients[static_cast<std::size_t>(d)].row(corner) *
-                                   element.x.leftCols(dim));
-        tangents.row(row) = tangent;
+        // along has entries -1, 0 and 1: sums of two rows at most.
+        tangents.row(row) = along.head(dim) * here.tangents;
+        errors.row(row) = 2.0 * along.head(dim).cwiseAbs() * here.errors;
         directions.row(row++) = along.head(dim);
     }
     for (const SubElement& edge : reference.edges) {
@@ -176,26 +224,35 @@ std::optional<Eigen::VectorXd> tangent_form(const Judged& element, int corner, i
     }
     if (may_move(element.nodes[static_cast<std::size_t>(corner)])) return std::nullopt;
     Eigen::VectorXd form(dim);
-    double largest = 1.0;
-    for (int k = 0; k < dim; ++k)
-        if (k != replaced) largest *= tangents.row(k).norm();
+    double error = 0.0;
+    errors.row(replaced).setZero();
     for (int d = 0; d < dim; ++d) {
         tangents.row(replaced) = Eigen::RowVectorXd::Unit(dim, d);
         form[d] = element.sign * tangents.determinant() / directions.determinant();
+        error += determinant_error(tangents, errors) / std::abs(directions.determinant());
     }
-    constexpr double rounding = 1e-11;
-    if (form.norm() <= rounding * largest) return Eigen::VectorXd::Zero(dim);
-    return form.normalized();
+    if (form.norm() <= error) return TangentForm{Eigen::VectorXd::Zero(dim), error};
+    return TangentForm{form.normalized(), error / form.norm()};
 }
 
-/// Whether some tangent makes all forms positive, by more than rounding.
-bool is_possible(const std::vector<Eigen::VectorXd>& forms) {
-    if (forms.empty()) return true;
+/// Upper bound of the largest least value that the forms have at a tangent of entries up to 1.
+double largest_least(const std::vector<TangentForm>& forms) {
+    if (forms.empty()) return std::numeric_limits<double>::infinity();
     const auto rows = static_cast<Eigen::Index>(forms.size());
-    Eigen::MatrixXd table(rows, forms[0].size());
-    for (Eigen::Index i = 0; i < rows; ++i) table.row(i) = forms[static_cast<std::size_t>(i)].transpose();
-    constexpr double rounding = 1e-10;
-    return largest_minimum(Eigen::VectorXd::Zero(rows), table, 1.0) > rounding;
+    Eigen::MatrixXd table(rows, forms[0].form.size());
+    for (Eigen::Index i = 0; i < rows; ++i) table.row(i) = forms[static_cast<std::size_t>(i)].form.transpose();
+    return largest_minimum(Eigen::VectorXd::Zero(rows), table, 1.0);
+}
+/// Whether some tangent makes all forms positive, by more than a little.
+bool is_possible(const std::vector<TangentForm>& forms) {
+    constexpr double little = 1e-10;
+    return largest_least(forms) > little;
+}
+/// Whether that is certain: none makes all of them positive by more than their own errors.
+bool is_surely_impossible(const std::vector<TangentForm>& forms) {
+    double error = 4.0 * std::numeric_limits<double>::epsilon();
+    for (const TangentForm& form : forms) error = std::max(error, form.error);
+    return largest_least(forms) <= error;
 }
 
 /// What J has to be at some points, as affine functions of one node's position.
@@ -219,22 +276,44 @@ struct Program {
             rounding = std::max(rounding, element.rounding);
         }
     }
-    double bound() const {
+    /// radius: of the positions that are considered, in extents of the element.
+    double bound(double radius = 1000.0) const {
         if (values.empty()) return std::numeric_limits<double>::infinity();
         const auto rows = static_cast<Eigen::Index>(values.size()), dim = slopes[0].size();
         Eigen::MatrixXd table(rows, dim);
         for (Eigen::Index i = 0; i < rows; ++i) table.row(i) = slopes[static_cast<std::size_t>(i)].transpose();
-        constexpr double radius = 1000.0;
         // The slopes are differences of values.
         const double slack = (1.0 + 2.0 * static_cast<double>(dim) * radius) * rounding;
         return largest_minimum(Eigen::Map<const Eigen::VectorXd>(values.data(), rows), table, radius) + slack;
     }
 };
 
+/// Whether J at a corner is positive beyond its own rounding error, however small it is for the element.
+bool is_surely_positive(const Judged& element, int corner) {
+    const CornerTangents here(element, corner);
+    return element.sign * here.tangents.determinant() > determinant_error(here.tangents, here.errors);
+}
+
+/// Whether a program without a solution within the usual distance has none at all: with the boundary as it is, nodes of
+/// a valid mesh are in the hull of the boundary. Facets bulge out of the box of their nodes, but not as far as this.
+bool is_without_solution(const Program& program, const CurvedMesh& mesh, double extent,
+                         const std::function<bool(Index)>& may_move) {
+    const auto& boundary = mesh.topology().boundary_nodes();
+    if (std::any_of(boundary.begin(), boundary.end(), may_move)) return false;
+    const Coordinates& x = mesh.coordinates();
+    Eigen::RowVector3d low = x.row(boundary.front()), high = low;
+    for (const Index node : boundary) {
+        low = low.cwiseMin(x.row(node));
+        high = high.cwiseMax(x.row(node));
+    }
+    const double reach = 4.0 * ((high - low).norm() + extent) / extent;
+    return program.bound(std::max(reach, 1000.0)) <= 0.0;
+}
+
 }  // namespace
 
-std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element, double sign,
-                                                const NodeElements& node_elements,
+std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index element,
+                                                const OrientationSigns& signs, const NodeElements& node_elements,
                                                 const std::function<bool(Index node)>& may_move,
                                                 const std::function<bool(Index element)>& is_given_up) {
     const MeshTopology& topology = mesh.topology();
@@ -242,7 +321,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
     const Eigen::RowVector3d center = x.colwise().mean();
     const double extent = (x.rowwise() - center).cwiseAbs().maxCoeff();
     if (!is_simplex(topology.element_type(element).shape) || !(extent > 0.0)) return std::nullopt;
-    const Judged judged(mesh, element, sign, center, extent);
+    const Judged judged(mesh, element, signs, center, extent);
     if (!(judged.scale > 0.0)) return std::nullopt;
     const auto tag = [&](int n) { return topology.node_tag(judged.nodes[static_cast<std::size_t>(n)]).value; };
     const std::vector<int> movable = judged.movable(-1, may_move);
@@ -251,7 +330,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
     int worst = -1;
     for (int corner = 0; corner < corners; ++corner)
         if (judged.now[corner] <= judged.rounding && judged.movable(corner, may_move).empty() &&
-            (worst < 0 || judged.now[corner] < judged.now[worst]))
+            (worst < 0 || judged.now[corner] < judged.now[worst]) && !is_surely_positive(judged, corner))
             worst = corner;
     if (worst >= 0) {
         const double value = judged.now[worst];
@@ -274,7 +353,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
         for (int end = 0; end < corners; ++end) {
             const auto form = end == corner ? std::nullopt : tangent_form(judged, corner, end, may_move);
             if (!form) continue;
-            if (form->isZero(0.0))
+            if (form->form.isZero(0.0))
                 return Impossibility{0.0,
                                      fmt::format("J at its corner at node {} stays zero up to rounding: two of the "
                                                  "edges there have the same direction, and none of their nodes may "
@@ -282,7 +361,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
                                                  tag(corner))};
             const Index from = judged.nodes[static_cast<std::size_t>(corner)];
             const Index to = judged.nodes[static_cast<std::size_t>(end)];
-            std::vector<Eigen::VectorXd> forms;
+            std::vector<TangentForm> forms;
             for (const Index other : node_elements.of(from)) {
                 if (other == element || (is_given_up && is_given_up(other))) continue;
                 const auto nodes = topology.element_nodes(other);
@@ -290,7 +369,7 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
                 const auto other_corner = std::find(nodes.begin(), last, from),
                            other_end = std::find(nodes.begin(), last, to);
                 if (other_corner == last || other_end == last) continue;
-                const Judged neighbour(mesh, other, sign, center, extent);
+                const Judged neighbour(mesh, other, signs, center, extent);
                 if (const auto its = tangent_form(neighbour, static_cast<int>(other_corner - nodes.begin()),
                                                   static_cast<int>(other_end - nodes.begin()), may_move))
                     forms.push_back(*its);
@@ -302,7 +381,8 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
                     0.0,
                     fmt::format("in whatever direction the edge to node {} leaves node {}, J there is at most zero in "
                                 "this element or in one that shares the edge",
-                                tag(end), tag(corner))};
+                                tag(end), tag(corner)),
+                    is_surely_impossible(forms)};
         }
 
     for (const int n : movable) {
@@ -314,11 +394,12 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
             return Impossibility{bound,
                                  fmt::format("wherever node {} goes, J stays below {:.2g} of its largest |J| at one "
                                              "of the points where it depends on that node alone",
-                                             tag(n), bound)};
+                                             tag(n), bound),
+                                 is_without_solution(own, mesh, extent, may_move)};
         Program others;
         for (const Index other : node_elements.of(node)) {
             if (other == element || (is_given_up && is_given_up(other))) continue;
-            const Judged neighbour(mesh, other, sign, center, extent);
+            const Judged neighbour(mesh, other, signs, center, extent);
             if (neighbour.scale > 0.0) others.add(neighbour, node, may_move);
         }
         if (others.values.empty() || others.bound() <= 0.0) continue;
@@ -328,7 +409,8 @@ std::optional<Impossibility> find_impossibility(const CurvedMesh& mesh, Index el
                 bound,
                 fmt::format("wherever node {} goes, this element or one that shares the node has J below {:.2g} of "
                             "its largest |J| where J depends on that node alone",
-                            tag(n), bound)};
+                            tag(n), bound),
+                is_without_solution(others, mesh, extent, may_move)};
     }
     return std::nullopt;
 }

@@ -7,7 +7,9 @@
 
 #include "core/base/error.h"
 #include "core/basis/reference_element.h"
+#include "core/mesh/conformity.h"
 #include "core/optimize/bfgs.h"
+#include "core/mesh/renumbering.h"
 #include "core/quality/jacobian_bounds.h"
 #include "core/quality/quality.h"
 #include "core/untangle/edge_angles.h"
@@ -57,18 +59,44 @@ class UnsignedAngleUntangler {
           context_(context),
           bounds_(*topology_.uniform_type()),
           edges_(find_interior_edges(topology_)),
+          kept_(options.nodes, topology_),
           face_placements_(face_placements()),
           x_(mesh.coordinates()) {
         QualityReport report = assess_quality(mesh, quality_options_, context);
         quality_options_.orientation_sign = report.orientation_sign;
         qualities_ = std::move(report.elements);
+        std::erase_if(edges_, [this](const InteriorEdge& edge) {
+            return std::any_of(edge.nodes.begin(), edge.nodes.end(),
+                               [this](Index node) { return kept_.is_kept(node); });
+        });
     }
 
     UntangleResult run() {
         tell(event::Started{&mesh_});
         UntangleResult result;
-        result.reason = has_work() ? StopReason::pass_limit : end_reason();
         Coordinates best = x_;
+        try {
+            make_passes(result, best);
+        } catch (const Cancelled&) {
+            if (!options_.keeps_best_on_cancel) throw;
+            result.reason = StopReason::cancelled;
+            if (observer_) tell_put_back(best);
+            x_ = best;
+        }
+        tell(event::Finished{result.reason, result.passes});
+        result.coordinates = std::move(x_);
+        return result;
+    }
+
+  private:
+    template <class Event>
+    void tell(Event&& event) {
+        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
+    }
+
+    void make_passes(UntangleResult& result, Coordinates& best) {
+        // A valid mesh is not changed; see improve().
+        result.reason = is_untangled() ? StopReason::untangled : StopReason::pass_limit;
         std::vector<ElementQuality> best_qualities = qualities_;
         Standing best_standing(qualities_);
         int fruitless = 0;  // passes in turn that did not lead to a better mesh
@@ -99,15 +127,6 @@ class UnsignedAngleUntangler {
             }
             if (observer_) tell_pass_ended(result.passes, change);
         }
-        tell(event::Finished{result.reason, result.passes});
-        result.coordinates = std::move(x_);
-        return result;
-    }
-
-  private:
-    template <class Event>
-    void tell(Event&& event) {
-        if (observer_) observer_->on_event(UntangleEvent(std::forward<Event>(event)));
     }
 
     void tell_put_back(const Coordinates& best) {
@@ -134,7 +153,8 @@ class UnsignedAngleUntangler {
         const auto nodes = topology_.element_nodes(triangle);
         Eigen::MatrixX3d positions(static_cast<Eigen::Index>(nodes.size()), 3);
         for (std::size_t i = 0; i < nodes.size(); ++i) positions.row(static_cast<Eigen::Index>(i)) = x_.row(nodes[i]);
-        qualities_[triangle] = bounds_.bound(positions, *quality_options_.orientation_sign, quality_options_);
+        qualities_[triangle] = bounds_.bound(
+            positions, quality_options_.orientation_sign->of_element(topology_, triangle), quality_options_);
     }
 
     bool is_done(Index triangle) const {
@@ -235,7 +255,7 @@ class UnsignedAngleUntangler {
         for (std::size_t i = 0; i < edge.nodes.size(); ++i)
             x_.row(edge.nodes[i]).head<2>() = variables.segment<2>(static_cast<Eigen::Index>(2 * i));
         for (const Index triangle : edge.triangles) {
-            if (face_nodes) face_nodes->place(topology_.element_nodes(triangle), x_);
+            if (face_nodes) face_nodes->place(topology_.element_nodes(triangle), x_, &kept_);
             certify(triangle);
         }
     }
@@ -311,6 +331,7 @@ class UnsignedAngleUntangler {
     QualityOptions quality_options_;
     JacobianBounds bounds_;
     std::vector<InteriorEdge> edges_;
+    const KeptNodes kept_;
     const std::vector<FaceNodes> face_placements_;
     Coordinates x_;
     std::vector<ElementQuality> qualities_;
@@ -330,7 +351,10 @@ UnsignedAngleOptions UnsignedAngleOptions::literal() {
 UntangleResult untangle_unsigned_angles(const CurvedMesh& mesh, const UnsignedAngleOptions& options,
                                         UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);
-    return UnsignedAngleUntangler(mesh, options, observer, context).run();
+    require_conforming(mesh, context);
+    const NumberedAlike alike(mesh);
+    GivenNumbering given(mesh, observer);
+    return UnsignedAngleUntangler(alike.mesh(), options, given.listener(), context).run();
 }
 
 }  // namespace curvewright

@@ -4,6 +4,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/untangle/node_rules.h"
 #include "core/untangle/untangle_result.h"
 
 namespace curvewright {
@@ -37,6 +38,11 @@ struct UnsignedAngleOptions {
     /// |gradient| × edge length at which an edge is done.
     double gradient_tolerance = 1e-4;
     int max_iterations = 100;
+    /// Nodes that stay in any case. An edge with such a node stays as it is.
+    NodeRules nodes;
+    /// When cancelled, return the best mesh that a pass has left, with StopReason::cancelled, instead of throwing
+    /// Cancelled.
+    bool keeps_best_on_cancel = false;
 
     /// The thesis's method to the letter. It leaves the scale of its first step open; 0.01 is within what its examples
     /// want.

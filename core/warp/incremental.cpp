@@ -14,6 +14,15 @@ bool is_valid(const QualitySummary& summary) {
     return summary.invalid == 0 && summary.undecided == 0;
 }
 
+void require_valid(const QualityReport& quality, const MeshTopology& topology) {
+    if (is_valid(quality.summary)) return;
+    const Index worst = quality.worst(1).front();
+    throw InvalidInput(
+        fmt::format("The mesh is not valid to begin with (element {} has scaled Jacobian {:.3g}), so there is no last "
+                    "valid state to stop at; untangle it first, or warp it at once.",
+                    topology.element_tag(worst).value, quality.elements[worst].scaled_jacobian));
+}
+
 /// The caller sees one task whose progress only grows: what is inside a step moves it within the step's share.
 class StepProgress {
   public:
@@ -48,14 +57,7 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
     IncrementalResult result;
     result.coordinates = mesh.coordinates();
     result.quality = assess_quality(mesh, quality_options, context);
-    if (!is_valid(result.quality.summary)) {
-        const Index worst = result.quality.worst(1).front();
-        throw InvalidInput(
-            fmt::format("The mesh is not valid to begin with (element {} has scaled Jacobian {:.3g}), so there is no "
-                        "last valid state "
-                        "to stop at; untangle it first, or warp it at once.",
-                        mesh.topology().element_tag(worst).value, result.quality.elements[worst].scaled_jacobian));
-    }
+    require_valid(result.quality, mesh.topology());
     quality_options.orientation_sign = result.quality.orientation_sign;
 
     IncrementReport& report = result.increments;
@@ -64,40 +66,44 @@ IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath&
     double neighbours = 0.0, weights = 0.0, solve = 0.0;
     const bool is_automatic = increments.steps == 0;
     double step = is_automatic ? 1.0 : 1.0 / increments.steps;
-    while (report.fraction < 1.0) {
-        const int number = report.accepted + 1;
-        double target = is_automatic ? report.fraction + step : number * step;
-        if (target > 1.0 - 1e-9 || number == increments.steps) target = 1.0;
-        const TaskContext inner = progress.context_of_step(report.fraction, target);
-        if (!warper) {
-            warper.emplace(mesh.with_coordinates(result.coordinates), options, inner);
-            neighbours += warper->setup_report().neighbours_seconds;
-            weights += warper->setup_report().weights_seconds;
-            solve += warper->setup_report().solve_seconds;
+    while (report.fraction < 1.0) try {
+            const int number = report.accepted + 1;
+            double target = is_automatic ? report.fraction + step : number * step;
+            if (target > 1.0 - 1e-9 || number == increments.steps) target = 1.0;
+            const TaskContext inner = progress.context_of_step(report.fraction, target);
+            if (!warper) {
+                warper.emplace(mesh.with_coordinates(result.coordinates), options, inner);
+                neighbours += warper->setup_report().neighbours_seconds;
+                weights += warper->setup_report().weights_seconds;
+                solve += warper->setup_report().solve_seconds;
+            }
+            WarpResult moved = warper->move(path(target), inner);
+            solve += moved.report.solve_seconds - warper->setup_report().solve_seconds;
+            QualityReport quality = assess_quality(mesh.with_coordinates(moved.coordinates), quality_options, inner);
+            const bool is_accepted = is_valid(quality.summary);
+            report.steps.push_back({target, quality.summary, is_accepted});
+            if (observer) observer(report.steps.back(), moved.coordinates);
+            result.report = std::move(moved.report);
+            if (is_accepted) {
+                report.fraction = target;
+                ++report.accepted;
+                result.coordinates = std::move(moved.coordinates);
+                result.quality = std::move(quality);
+                if (increments.recomputes_weights) warper.reset();
+                if (is_automatic) step = std::min(2.0 * step, 1.0 - report.fraction);
+                continue;
+            }
+            const Index worst = quality.worst(1).front();
+            report.failed_fraction = target;
+            report.failed_element = worst;
+            report.failed_scaled_jacobian = quality.elements[worst].scaled_jacobian;
+            if (!is_automatic || 0.5 * step < increments.smallest_step) break;
+            step = 0.5 * (target - report.fraction);
+        } catch (const Cancelled&) {
+            if (!increments.keeps_best_on_cancel) throw;
+            report.is_cancelled = true;
+            break;
         }
-        WarpResult moved = warper->move(path(target), inner);
-        solve += moved.report.solve_seconds - warper->setup_report().solve_seconds;
-        QualityReport quality = assess_quality(mesh.with_coordinates(moved.coordinates), quality_options, inner);
-        const bool is_accepted = is_valid(quality.summary);
-        report.steps.push_back({target, quality.summary, is_accepted});
-        if (observer) observer(report.steps.back(), moved.coordinates);
-        result.report = std::move(moved.report);
-        if (is_accepted) {
-            report.fraction = target;
-            ++report.accepted;
-            result.coordinates = std::move(moved.coordinates);
-            result.quality = std::move(quality);
-            if (increments.recomputes_weights) warper.reset();
-            if (is_automatic) step = std::min(2.0 * step, 1.0 - report.fraction);
-            continue;
-        }
-        const Index worst = quality.worst(1).front();
-        report.failed_fraction = target;
-        report.failed_element = worst;
-        report.failed_scaled_jacobian = quality.elements[worst].scaled_jacobian;
-        if (!is_automatic || 0.5 * step < increments.smallest_step) break;
-        step = 0.5 * (target - report.fraction);
-    }
     if (report.is_complete()) {
         report.failed_element.reset();
         report.failed_fraction = report.failed_scaled_jacobian = 0.0;
@@ -115,6 +121,9 @@ std::string describe(const IncrementReport& report, const MeshTopology& topology
                    ? fmt::format("The whole motion in {} {}.", report.accepted, report.accepted == 1 ? "step" : "steps")
                    : fmt::format("The whole motion in {} {} ({} tried).", report.accepted,
                                  report.accepted == 1 ? "step" : "steps", report.steps.size());
+    if (report.is_cancelled)
+        return fmt::format("Cancelled at {} of the motion, after {} {}.", percent(report.fraction), report.accepted,
+                           report.accepted == 1 ? "step" : "steps");
     return fmt::format(
         "Stopped at {} of the motion, the last state without tangled elements: the step to {} (step {}) tangles "
         "element {} "

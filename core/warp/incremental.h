@@ -26,6 +26,8 @@ struct IncrementOptions {
     bool recomputes_weights = true;
     /// Automatic: the shortest step tried, as a fraction of the whole.
     double smallest_step = 1.0 / 64.0;
+    /// When cancelled, return the last valid state instead of throwing Cancelled.
+    bool keeps_best_on_cancel = false;
 };
 
 /// A state on the way.
@@ -47,6 +49,7 @@ struct IncrementReport {
     double failed_fraction = 0.0;
     std::optional<Index> failed_element;
     double failed_scaled_jacobian = 0.0;
+    bool is_cancelled = false;  ///< ended because the caller asked for it
     bool is_complete() const { return fraction == 1.0; }
 };
 
@@ -61,7 +64,7 @@ struct IncrementalResult {
 /// Moves the boundary along its path step by step, and stops at the last state in which all elements are proved valid.
 /// 1, the end, counts as reached only if it is valid too. Throws InvalidInput if the mesh has elements that are not
 /// valid to begin with (the worst is named) or for wrong options, Unsupported for elements whose validity cannot be
-/// assessed, what warp throws, Cancelled.
+/// assessed, what warp throws, Cancelled (but see keeps_best_on_cancel).
 IncrementalResult warp_in_increments(const CurvedMesh& mesh, const BoundaryPath& path, const WarpOptions& options,
                                      const IncrementOptions& increments, const TaskContext& context = {},
                                      const IncrementObserver& observer = {});

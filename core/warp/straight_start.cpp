@@ -3,6 +3,7 @@
 #include <map>
 
 #include "core/basis/lagrange.h"
+#include "core/mesh/renumbering.h"
 
 namespace curvewright {
 namespace {
@@ -35,7 +36,7 @@ CurvedMesh straight_sided(const CurvedMesh& mesh) {
 WarpResult warp_from_straight(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
     WarpOptions with_interfaces = options;
     for (const Index node : mesh.topology().interface_nodes()) with_interfaces.prescribed_nodes.push_back(node);
-    return warp(straight_sided(mesh), mesh.coordinates(), with_interfaces, context);
+    return warp(straight_sided(NumberedAlike(mesh).mesh()), mesh.coordinates(), with_interfaces, context);
 }
 
 }  // namespace curvewright

@@ -12,6 +12,8 @@
 #include "core/base/parallel.h"
 #include "core/base/stopwatch.h"
 #include "core/boundary/boundary_parts.h"
+#include "core/mesh/conformity.h"
+#include "core/mesh/renumbering.h"
 #include "core/warp/elasticity.h"
 #include "core/warp/equations.h"
 
@@ -128,9 +130,12 @@ class AffineFit {
 }  // namespace
 
 struct Warper::Data {
-    Data(const CurvedMesh& m, const WarpOptions& o) : mesh(m), options(o) {}
+    Data(const CurvedMesh& m, const WarpOptions& o) : mesh(numbered_alike(m)), options(o) {
+        if (mesh.shared_topology() != m.shared_topology()) given = m;
+    }
 
-    CurvedMesh mesh;
+    CurvedMesh mesh;                  ///< numbered alike
+    std::optional<CurvedMesh> given;  ///< as it was given, if that is another one
     WarpOptions options;
     WarpReport report;
     std::vector<Index> given_nodes, following_nodes;
@@ -240,6 +245,7 @@ void Warper::Data::set_up(const TaskContext& context) {
 }
 
 Warper::Warper(const CurvedMesh& mesh, const WarpOptions& options, const TaskContext& context) {
+    require_conforming(mesh, context);
     auto data = std::make_unique<Data>(mesh, options);
     data->set_up(context);
     data_ = std::move(data);
@@ -248,7 +254,7 @@ Warper::~Warper() = default;
 Warper::Warper(Warper&&) noexcept = default;
 
 const CurvedMesh& Warper::mesh() const {
-    return data_->mesh;
+    return data_->given ? *data_->given : data_->mesh;
 }
 const WarpOptions& Warper::options() const {
     return data_->options;

@@ -95,7 +95,8 @@ struct WarpResult {
 /// element shapes, orders 1 to 10; pyramids not with elastic. Immutable; safe to use from several threads at once.
 class Warper {
   public:
-    /// Throws Unsupported (dimension, neighbours), InvalidInput (options), SolverFailure, Cancelled.
+    /// Throws Unsupported (dimension, neighbours, facets that do not match: require_conforming), InvalidInput
+    /// (options), SolverFailure, Cancelled.
     explicit Warper(const CurvedMesh& mesh, const WarpOptions& options = {}, const TaskContext& context = {});
     ~Warper();
     Warper(Warper&&) noexcept;

@@ -1,9 +1,12 @@
 #include "tests/regression/process.h"
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <sys/wait.h>
@@ -26,9 +29,10 @@ void redirect(const std::string& file, int descriptor) {
 
 }  // namespace
 
-ProcessResult run_program(const std::vector<std::string>& command) {
-    const TemporaryFolder folder;
-    const std::string output = folder / "output", errors = folder / "errors";
+namespace {
+
+/// The program's process; what it writes goes to the two files.
+pid_t start(const std::vector<std::string>& command, const std::string& output, const std::string& errors) {
     std::vector<char*> arguments;
     for (const std::string& word : command) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
@@ -42,10 +46,41 @@ ProcessResult run_program(const std::vector<std::string>& command) {
         execv(arguments[0], arguments.data());
         _exit(127);
     }
+    return child;
+}
+
+int code_of(int status) {
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+}  // namespace
+
+ProcessResult run_program(const std::vector<std::string>& command) {
+    const TemporaryFolder folder;
+    const std::string output = folder / "output", errors = folder / "errors";
+    const pid_t child = start(command, output, errors);
     int status = 0;
     waitpid(child, &status, 0);
-    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    return {code, read_all(output), read_all(errors)};
+    return {code_of(status), read_all(output), read_all(errors)};
+}
+
+ProcessResult interrupt_program(const std::vector<std::string>& command, const std::string& text) {
+    using namespace std::chrono_literals;
+    const TemporaryFolder folder;
+    const std::string output = folder / "output", errors = folder / "errors";
+    const pid_t child = start(command, output, errors);
+    const auto limit = std::chrono::steady_clock::now() + 2min;
+    bool is_interrupted = false;
+    int status = 0;
+    while (waitpid(child, &status, WNOHANG) == 0) {
+        if (!is_interrupted && read_all(errors).find(text) != std::string::npos) {
+            is_interrupted = true;
+            kill(child, SIGINT);
+        }
+        if (std::chrono::steady_clock::now() > limit) kill(child, SIGKILL);
+        std::this_thread::sleep_for(10ms);
+    }
+    return {code_of(status), read_all(output), read_all(errors)};
 }
 
 TemporaryFolder::TemporaryFolder() {

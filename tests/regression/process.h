@@ -13,6 +13,9 @@ struct ProcessResult {
 
 /// Runs a program without a shell and waits for it. DISPLAY is taken away: the command line must not need one.
 ProcessResult run_program(const std::vector<std::string>& command);
+/// The same, but sends it SIGINT as soon as its standard error holds the text. Gives it up, with SIGKILL, after two
+/// minutes.
+ProcessResult interrupt_program(const std::vector<std::string>& command, const std::string& text);
 
 /// A folder that is removed with all that is in it.
 class TemporaryFolder {

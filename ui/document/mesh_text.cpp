@@ -92,15 +92,22 @@ QString describe_elements(const MeshTopology& topology) {
 }
 
 QString describe_validity(const QualitySummary& summary) {
-    if (summary.invalid == 0 && summary.undecided == 0) return tr("✓ all proved valid");
     QStringList parts;
+    if (summary.invalid == 0 && summary.undecided == 0)
+        parts << (summary.not_assessed == 0 ? tr("✓ all proved valid")
+                                            : tr("✓ %1 proved valid").arg(format_count(summary.valid)));
     if (summary.invalid > 0) parts << tr("✕ %1 tangled").arg(format_count(summary.invalid));
     if (summary.undecided > 0) parts << tr("? %1 undecided").arg(format_count(summary.undecided));
+    if (summary.not_assessed > 0) parts << tr("%1 not assessed").arg(format_count(summary.not_assessed));
+    if (summary.reversed > 0) parts << tr("%1 reversed").arg(format_count(summary.reversed));
     return parts.join(QStringLiteral(" · "));
 }
 
 QString validity_sentence(const QualitySummary& summary) {
-    if (summary.invalid == 0 && summary.undecided == 0) return tr("✓ all proved valid");
+    if (summary.invalid == 0 && summary.undecided == 0)
+        return summary.not_assessed == 0 ? tr("✓ all proved valid")
+                                         : tr("✓ %1 proved valid, %2 pyramids not assessed")
+                                               .arg(format_count(summary.valid), format_count(summary.not_assessed));
     QString text;
     if (summary.invalid == 1) text = tr("✕ 1 element is tangled (scaled Jacobian ≤ 0)");
     if (summary.invalid > 1)

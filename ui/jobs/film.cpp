@@ -162,7 +162,7 @@ std::function<std::unique_ptr<FrameSource>(const TaskContext&)> film_of_history(
         plans.push_back(std::move(plan));
     }
     const MeshState& present = document.state();
-    const std::optional<double> sign =
+    const std::optional<OrientationSigns> sign =
         present.quality ? std::optional(present.quality->orientation_sign) : std::nullopt;
     return [plans, mesh = present.mesh, sign, count](const TaskContext& context) -> std::unique_ptr<FrameSource> {
         std::vector<MotionLeg> legs;

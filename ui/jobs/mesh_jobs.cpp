@@ -2,11 +2,18 @@
 
 #include <QFileInfo>
 
+#include "core/base/sha256.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
+<<<<<<< HEAD
 #include "ui/document/number_format.h"
+=======
+#include "core/io/matched_mesh.h"
+#include "core/mesh/conformity.h"
+>>>>>>> integration
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/operation_steps.h"
+#include "ui/jobs/window_provenance.h"
 
 namespace curvewright {
 
@@ -33,11 +40,12 @@ MeshJobs::MeshJobs(MeshDocument& document, QObject* parent) : QObject(parent), d
 bool MeshJobs::open(OpenRequest request) {
     const QString name = QFileInfo(request.mesh_path).fileName();
     return runner_.start(tr("Opening %1").arg(name), [this, request = std::move(request)](const TaskContext& context) {
-        ReadResult read = read_mesh(to_path(request.mesh_path), context);
+        ReadResult read = read_matched_mesh(to_path(request.mesh_path), {}, context);
         OpenedMesh opened;
         opened.file_path = QFileInfo(request.mesh_path).absoluteFilePath();
         for (const std::string& text : read.notes) opened.notes << QString::fromStdString(text);
         opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
+        const std::string hash = sha256_of_file(to_path(request.mesh_path));
         opened.state = make_state(std::move(read.mesh), context);
         opened.groups = list_groups(opened.state.mesh->topology());
 
@@ -49,14 +57,17 @@ bool MeshJobs::open(OpenRequest request) {
             loaded = LoadedDeformation{deformation, QFileInfo(request.deformation_path).absoluteFilePath()};
             if (request.apply_deformation) {
                 const CurvedMesh& mesh = *opened.state.mesh;
+                require_conforming(mesh, context);
                 deformed =
                     make_state(mesh.with_coordinates(apply_deformation(mesh, *deformation)), context, &opened.state);
                 deformed->applied_deformations << loaded->file_path;
             }
         }
-        return [this, opened = std::move(opened), loaded, deformed, is_start = request.is_starting_point,
+        return [this, opened = std::move(opened), loaded, deformed, hash, is_start = request.is_starting_point,
                 then = request.then] {
             document_.open(opened);
+            hashed_path_ = opened.file_path;
+            hash_ = hash;
             if (loaded) document_.set_deformation(*loaded);
             if (deformed)
                 document_.apply(tr("Deform boundary"), *deformed, DeformAction{loaded->file_path.toStdString()},
@@ -69,6 +80,7 @@ bool MeshJobs::open(OpenRequest request) {
 
 void MeshJobs::restore(const RestoredWork& work) {
     document_.restore(work.opened, work.history);
+    hashed_path_.clear();
     if (work.deformation) document_.set_deformation(*work.deformation);
 }
 
@@ -203,6 +215,10 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
     if (!document_.has_mesh()) return false;
     const MeshState state = document_.state(), original = document_.original();
     const auto fields = document_.fields();
+    const std::vector<Action> way = document_.way_here();
+    const auto* open = way.empty() ? nullptr : std::get_if<OpenAction>(&way.front());
+    const bool is_hashed = open != nullptr && open->mesh == hashed_path_.toStdString();
+    const Provenance provenance = window_provenance(way, is_hashed ? hash_ : std::string());
     const QString name = QFileInfo(path).fileName();
     return runner_.start(tr("Writing %1").arg(name), [=, this](const TaskContext& context) {
         context.report("writing", 0.0);
@@ -211,6 +227,7 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
         options.quality = state.quality.get();
         options.reference = &original.mesh->coordinates();
         options.fields = fields.get();
+        options.provenance = &provenance;
         QString told = tr("Wrote %1.").arg(path);
         QStringList lost;
         for (const std::string& text : write_mesh(to_path(path), *state.mesh, options))

@@ -114,6 +114,9 @@ class MeshJobs : public QObject {
 
     MeshDocument& document_;
     JobRunner runner_;
+    /// The file that was opened last, and the hash of its bytes then.
+    QString hashed_path_;
+    std::string hash_;
 };
 
 }  // namespace curvewright

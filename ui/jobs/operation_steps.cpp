@@ -6,6 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/deform/deformation.h"
+#include "core/mesh/conformity.h"
 #include "core/session/replay.h"
 #include "core/timeline/recorder.h"
 #include "ui/document/number_format.h"
@@ -130,6 +131,7 @@ QString by_file(const QString& deformation_path) {
 }
 
 Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded) {
+    require_conforming(mesh);
     Step step;
     step.coordinates = apply_deformation(mesh, *loaded.deformation);
     step.action = DeformAction{loaded.file_path.toStdString()};

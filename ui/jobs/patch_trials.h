@@ -16,7 +16,7 @@ namespace curvewright {
 struct TrialRequest {
     std::shared_ptr<const CurvedMesh> mesh;   ///< positions in the step
     std::shared_ptr<const CurvedMesh> start;  ///< of the untangling
-    double orientation_sign = 1.0;
+    OrientationSigns orientation_sign;
     std::shared_ptr<const StepExplanation> step;
     UntangleOptions options;
     TrialParameters parameters;

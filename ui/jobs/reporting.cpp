@@ -5,7 +5,7 @@
 #include <QFileInfo>
 
 #include "core/base/sha256.h"
-#include "core/io/mesh_io.h"
+#include "core/io/matched_mesh.h"
 #include "core/report/report_files.h"
 #include "core/session/session_file.h"
 #include "ui/jobs/in_window.h"
@@ -35,7 +35,7 @@ ReportInput describe_input(const std::string& path, const CurvedMesh& opened, st
     ReportInput input{file_name(path), {}, {}, std::move(steps)};
     try {
         const std::string hash = sha256_of_file(path);
-        const CurvedMesh now = read_mesh(path, context).mesh;
+        const CurvedMesh now = read_matched_mesh(path, {}, context).mesh;
         const bool is_same =
             now.topology().node_count() == opened.topology().node_count() && now.coordinates() == opened.coordinates();
         if (is_same)

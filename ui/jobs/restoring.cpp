@@ -6,7 +6,7 @@
 
 #include "core/base/error.h"
 #include "core/io/deformation_file.h"
-#include "core/io/mesh_io.h"
+#include "core/io/matched_mesh.h"
 #include "core/session/journal_file.h"
 #include "core/session/session_file.h"
 #include "ui/document/number_format.h"
@@ -44,7 +44,7 @@ CurvedMesh read_kept_mesh(const JournalContent& content, OpenedMesh& opened, con
     if (content.head.saved != content.head.mesh && !content.head.saved.empty()) files.push_back(content.head.saved);
     for (const std::string& file : files) {
         try {
-            ReadResult read = read_mesh(to_path(QString::fromStdString(file)), context);
+            ReadResult read = read_matched_mesh(to_path(QString::fromStdString(file)), {}, context);
             const auto is_it = [&](const CurvedMesh& mesh) {
                 return mesh.topology().node_count() == content.opened.rows() &&
                        fingerprint(mesh.topology()) == content.head.topology;
@@ -167,7 +167,7 @@ RestoredWork redo_session(const QString& session_path, const TaskContext& contex
         const double share = 1.0 / static_cast<double>(count + 1), begin = static_cast<double>(state) * share;
         return part_of(context, state == 0 ? tr("opening") : step_title(state, count), begin, begin + share);
     };
-    ReadResult read = read_mesh(to_path(QString::fromStdString(open.mesh)), part(0));
+    ReadResult read = read_matched_mesh(to_path(QString::fromStdString(open.mesh)), {}, part(0));
     for (const std::string& note : read.notes) work.opened.notes << QString::fromStdString(note);
     work.opened.fields = std::make_shared<const std::vector<FieldArray>>(std::move(read.fields));
     work.opened.file_path = QString::fromStdString(open.mesh);

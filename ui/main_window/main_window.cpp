@@ -242,7 +242,26 @@ void MainWindow::show_state() {
         verdict_->setText(tr("quality unknown"));
         set_tone(verdict_, "warning");
     } else if (state.quality) {
+<<<<<<< HEAD
         show_verdict(state.quality->summary);
+=======
+        const QualitySummary& summary = state.quality->summary;
+        show_verdict(summary);
+        if (state.quality->orientation == Orientation::negative)
+            banner_->show_warning(
+                tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
+                   "numbering, not of tangling."),
+                tr("Flip"));
+        else if (summary.reversed > 0)
+            banner_->show_warning(tr("%1 elements are numbered against their neighbours (reversed). That is a matter "
+                                     "of numbering, not of tangling.")
+                                      .arg(format_count(summary.reversed)),
+                                  {});
+        else if (state.quality->orientation == Orientation::mixed)
+            banner_->show_warning(tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; each "
+                                     "is judged by its own numbering."),
+                                  {});
+>>>>>>> integration
     }
     if (Tool* tool = current_tool()) tool->refresh();
     update_commands();
@@ -400,7 +419,10 @@ void MainWindow::tell_element(std::optional<Index> element) {
         const QString validity = quality.validity == Validity::valid     ? tr("proved valid")
                                  : quality.validity == Validity::invalid ? tr("tangled")
                                                                          : tr("undecided");
-        text += tr(": scaled Jacobian %1, %2").arg(format_number(quality.scaled_jacobian), validity);
+        if (quality.validity == Validity::not_assessed)
+            text += tr(": a pyramid, not assessed");
+        else
+            text += tr(": scaled Jacobian %1, %2").arg(format_number(quality.scaled_jacobian), validity);
     }
     statusBar()->showMessage(text);
 }

@@ -58,7 +58,8 @@ void MainWindow::connect_selection() {
         IndexSet elements;
         const auto& quality = document_.state().quality->elements;
         for (std::size_t i = 0; i < quality.size(); ++i)
-            if (quality[i].validity != Validity::valid) elements.push_back(static_cast<Index>(i));
+            if (quality[i].validity == Validity::invalid || quality[i].validity == Validity::undecided)
+                elements.push_back(static_cast<Index>(i));
         select_elements(elements, false);
     });
     on(CommandId::pin_selection, [this] { edit_.set_pins(united(edit_.pins(), edit_.nodes())); });

@@ -22,7 +22,7 @@ void HistogramBars::mark(const IndexSet& selected) {
     tangled.selected = 0;
     for (Bar& bar : bars) bar.selected = 0;
     for (const Index element : selected)
-        if (const auto i = static_cast<std::size_t>(element); i < bar_of_element.size())
+        if (const auto i = static_cast<std::size_t>(element); i < bar_of_element.size() && bar_of_element[i] != no_bar)
             ++at(bar_of_element[i]).selected;
 }
 
@@ -30,6 +30,10 @@ HistogramBars make_bars(std::span<const ElementQuality> elements) {
     HistogramBars result;
     result.bar_of_element.reserve(elements.size());
     for (const ElementQuality& quality : elements) {
+        if (quality.validity == Validity::not_assessed) {
+            result.bar_of_element.push_back(HistogramBars::no_bar);
+            continue;
+        }
         int bar = HistogramBars::tangled_bar;
         if (quality.validity != Validity::invalid) {
             const double position = quality.scaled_jacobian * HistogramBars::bins;

@@ -20,7 +20,7 @@ struct HistogramBars {
     };
     Bar tangled;
     std::vector<Bar> bars = std::vector<Bar>(bins);
-    std::vector<std::int8_t> bar_of_element;  ///< tangled_bar or a bin
+    std::vector<std::int8_t> bar_of_element;  ///< tangled_bar, a bin, or no_bar if it was not assessed
 
     /// pre: tangled_bar <= index < bins
     Bar& at(int index) { return index < 0 ? tangled : bars[static_cast<std::size_t>(index)]; }

@@ -61,7 +61,8 @@ void JacobianMap::show_element(const CurvedMesh& mesh, Index element, const Qual
     const Eigen::MatrixX3d x = mesh.element_coordinates(element);
     const JacobianSamples samples = sample_jacobian(type, x, points);
     const double scale = std::max(std::abs(quality.max_upper), std::abs(quality.min_lower));
-    const Eigen::VectorXd values = report.orientation_sign * samples.determinants / (scale > 0.0 ? scale : 1.0);
+    const Eigen::VectorXd values = report.orientation_sign.of_element(mesh.topology(), element) * samples.determinants /
+                                   (scale > 0.0 ? scale : 1.0);
     const auto place = [&](int at) {
         return is_flat ? QPointF(samples.positions(at, 0), samples.positions(at, 1))
                        : QPointF(points(at, 0), points(at, 1));

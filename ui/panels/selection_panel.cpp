@@ -48,9 +48,10 @@ QToolButton* make_button(const QString& text, const QString& tip, const char* ob
 }
 
 QString validity_word(Validity validity) {
-    return validity == Validity::valid     ? SelectionPanel::tr("proved valid")
-           : validity == Validity::invalid ? SelectionPanel::tr("tangled")
-                                           : SelectionPanel::tr("undecided");
+    return validity == Validity::valid          ? SelectionPanel::tr("proved valid")
+           : validity == Validity::invalid      ? SelectionPanel::tr("tangled")
+           : validity == Validity::not_assessed ? SelectionPanel::tr("not assessed")
+                                                : SelectionPanel::tr("undecided");
 }
 
 }  // namespace

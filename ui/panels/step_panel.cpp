@@ -206,8 +206,9 @@ void StepPanel::show_parameter(const Recording& recording, const UntangleOptions
 
 void StepPanel::show_step(const Recording& recording, std::shared_ptr<const StepExplanation> step,
                           std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr<const CurvedMesh> start,
-                          const QualitySummary& quality, double orientation_sign, const UntangleOptions& options,
-                          const Eigen::RowVector3d& across, const Eigen::RowVector3d& up) {
+                          const QualitySummary& quality, const OrientationSigns& orientation_sign,
+                          const UntangleOptions& options, const Eigen::RowVector3d& across,
+                          const Eigen::RowVector3d& up) {
     quality_ = quality;
     const auto patch = recording.patch_of(step->step);
     request_.step = std::move(step);

@@ -30,8 +30,8 @@ class StepPanel : public QWidget {
     /// solids.
     void show_step(const Recording& recording, std::shared_ptr<const StepExplanation> step,
                    std::shared_ptr<const CurvedMesh> mesh, std::shared_ptr<const CurvedMesh> start,
-                   const QualitySummary& quality, double orientation_sign, const UntangleOptions& options,
-                   const Eigen::RowVector3d& across, const Eigen::RowVector3d& up);
+                   const QualitySummary& quality, const OrientationSigns& orientation_sign,
+                   const UntangleOptions& options, const Eigen::RowVector3d& across, const Eigen::RowVector3d& up);
     void clear();
 
     /// Null if there is none (yet).

@@ -48,6 +48,8 @@ QString describe(Validity validity) {
             return WorstTable::tr("tangled");
         case Validity::undecided:
             return WorstTable::tr("undecided");
+        case Validity::not_assessed:
+            return WorstTable::tr("not assessed");
     }
     return {};
 }

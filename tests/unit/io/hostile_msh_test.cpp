@@ -69,7 +69,7 @@ TEST(HostileMsh, bad_input_is_told_with_line_and_reason) {
          "777777777"},
         {"element too short", head_22 + nodes_22 + "$Elements\n1\n1 2 0 1 2\n$EndElements\n",
          "\"$EndElements\" stands where a node of an element"},
-        {"unending section", head_41 + "$Periodic\n1\n", "bad.msh:4: section $Periodic has no $EndPeriodic"},
+        {"unending section", head_41 + "$Thing\n1\n", "bad.msh:4: section $Thing has no $EndThing"},
         {"entity twice", head_41 + "$Entities\n2 0 0 0\n1 0 0 0 0\n1 0 0 0 0\n$EndEntities\n",
          "bad.msh:7: entity 1 of dimension 0 occurs twice"},
         {"huge number of groups of an entity", head_41 + "$Entities\n1 0 0 0\n1 0 0 0 123456789\n$EndEntities\n",

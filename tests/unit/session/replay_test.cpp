@@ -81,6 +81,32 @@ TEST_F(ReplayTest, DoesWhatWasDone) {
     EXPECT_EQ(replay.opened().coordinates(), opened.coordinates());
 }
 
+TEST_F(ReplayTest, ImprovesAndTellsWhatItNotes) {
+    Replay replay(folder);
+    replay.perform(OpenAction{"square.msh"});
+    replay.perform(DeformAction{"bump.json"});
+    replay.perform(UntangleAction{GuaranteedOptions{}});
+    const CurvedMesh valid = replay.mesh();
+    EXPECT_TRUE(replay.notes().empty());
+    ImproveOptions options;
+    options.target = 1.0;
+    options.max_move = 0.01;
+    options.nodes.fixed_groups = {"left"};
+    replay.perform(ImproveAction{options});
+    EXPECT_EQ(replay.mesh().coordinates(), improve(valid, options).coordinates);
+
+    // A corner of the square pulled over the middle: its triangle cannot be mended, and the replay says so.
+    PlaceAction place;
+    const Index corner = valid.topology().element_nodes(0)[0];
+    place.rows.push_back({valid.topology().node_tag(corner), {0.9, 0.9, 0.0}});
+    replay.perform(place);
+    replay.perform(UntangleAction{GuaranteedOptions{}});
+    ASSERT_FALSE(replay.notes().empty());
+    EXPECT_TRUE(replay.notes()[0].starts_with("Element "));
+    replay.perform(OpenAction{"square.msh"});
+    EXPECT_TRUE(replay.notes().empty());
+}
+
 TEST_F(ReplayTest, TheSameForEveryNumberOfThreads) {
     const MeshTopology topology = square_mesh(4, 3).topology();
     DragAction drag = drag_of(topology, "top");

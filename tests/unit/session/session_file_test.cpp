@@ -48,6 +48,15 @@ std::vector<Action> all_actions() {
     DragAction plain;
     plain.nodes = {{1}};
     plain.motion.shift = {1.0, 2.0, 3.0};
+    ImproveOptions shape;
+    shape.goal = ImproveGoal::shape;
+    shape.target = 0.1 + 0.2;
+    shape.max_move = 1.0 / 3.0;
+    shape.shape_floor = 0.25;
+    shape.boundary.add("outer rim=slide");
+    shape.nodes = {true, {{7}, {123456789012}}, {"a group"}};
+    SignedAngleOptions keeping;
+    keeping.nodes = {false, {{5}}, {}};
     return {OpenAction{"a mesh \"with\" quotes.msh"},
             DeformAction{"/d/ü.json"},
             WarpAction{"d.json", weights, IncrementOptions{4, false, 0.01}},
@@ -60,7 +69,10 @@ std::vector<Action> all_actions() {
             drag,
             plain,
             PlaceAction{{{{3}, {0.1, 0.2, 0.3}}}},
-            HistoryAction{4}};
+            HistoryAction{4},
+            ImproveAction{shape},
+            ImproveAction{},
+            UntangleAction{keeping}};
 }
 
 TEST(SessionFile, EveryActionComesBackAsItWas) {
@@ -95,6 +107,32 @@ TEST(SessionFile, EveryActionComesBackAsItWas) {
     EXPECT_EQ(guaranteed.boundary.otherwise, BoundaryMode::slide);
     ASSERT_EQ(guaranteed.boundary.groups.size(), 1u);
     EXPECT_EQ(guaranteed.boundary.groups[0].group, "outer rim");
+}
+
+TEST(SessionFile, ImprovingComesBackWithAllItsOptions) {
+    const std::vector<Action> actions = all_actions();
+    const Action back = parse_action(to_json_line(actions[actions.size() - 3]));
+    const ImproveOptions& options = std::get<ImproveAction>(back).options;
+    EXPECT_EQ(options.goal, ImproveGoal::shape);
+    EXPECT_EQ(options.target, 0.1 + 0.2);
+    EXPECT_EQ(options.max_move, 1.0 / 3.0);
+    EXPECT_EQ(options.shape_floor, 0.25);
+    EXPECT_EQ(options.boundary.groups.at(0).group, "outer rim");
+    EXPECT_TRUE(options.nodes.keeps_vertices);
+    EXPECT_EQ(options.nodes.fixed_nodes, (std::vector<NodeTag>{{7}, {123456789012}}));
+    EXPECT_EQ(options.nodes.fixed_groups, std::vector<std::string>{"a group"});
+    const Action plain = parse_action(to_json_line(actions[actions.size() - 2]));
+    EXPECT_FALSE(std::get<ImproveAction>(plain).options.max_move);
+    EXPECT_TRUE(std::get<ImproveAction>(plain).options.nodes.is_empty());
+
+    // Nodes by tag have no words on a command line.
+    EXPECT_NE(command_line(actions[actions.size() - 3], "in.msh", "out.msh").find("replay"), std::string::npos);
+    ImproveOptions words = options;
+    words.nodes.fixed_nodes.clear();
+    words.target = 0.75;
+    EXPECT_EQ(command_line(ImproveAction{words}, "in.msh", "out.msh"),
+              "curvewright-cli improve in.msh -o out.msh --goal shape --target 0.75 --max-move 0.3333333333333333 "
+              "--shape-floor 0.25 --boundary fixed --boundary 'outer rim=slide' --keep-vertices --fix-nodes 'a group'");
 }
 
 TEST(SessionFile, WholeSessions) {

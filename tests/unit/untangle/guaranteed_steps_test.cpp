@@ -11,6 +11,7 @@
 #include "core/quality/quality.h"
 #include "core/quality/shape_quality.h"
 #include "core/untangle/guaranteed.h"
+#include "core/untangle/improve.h"
 #include "tests/support/mesh_factory.h"
 
 namespace curvewright {
@@ -137,27 +138,27 @@ TEST(GuaranteedSteps, AShapeFloorHoldsTheWorstShapeUp) {
         const double u = 4.0 * x(node, 0) - std::floor(4.0 * x(node, 0));
         if (x(node, 1) == 0.0) x(node, 1) = 0.3 * u * (1.0 - u);
     }
-    GuaranteedOptions options;
+    ImproveOptions options;
     options.target = 1.0;
     options.shape_weight = 10.0;
-    const CurvedMesh mesh =
-        straight.with_coordinates(untangle_guaranteed(straight.with_coordinates(x), options).coordinates);
+    const CurvedMesh mesh = straight.with_coordinates(improve(straight.with_coordinates(x), options).coordinates);
     const auto worst_shape = [&](const Coordinates& of) {
         return assess_shape(mesh.with_coordinates(of), mesh.coordinates()).min;
     };
     options.shape_weight = 1e-4;
-    const GuaranteedResult without = untangle_guaranteed(mesh, options);
+    const ImproveResult without = improve(mesh, options);
     const double start = worst_shape(mesh.coordinates()), low = worst_shape(without.coordinates);
     ASSERT_GT(start, low + 0.02) << "improving costs no shape here";
     options.shape_floor = 0.5 * (start + low);
-    const GuaranteedResult with = untangle_guaranteed(mesh, options);
+    const ImproveResult with = improve(mesh, options);
     EXPECT_GE(worst_shape(with.coordinates), options.shape_floor);
     EXPECT_LT(summary_of(mesh, with.coordinates).min, summary_of(mesh, without.coordinates).min);
     EXPECT_GT(summary_of(mesh, with.coordinates).min, summary_of(mesh, mesh.coordinates()).min);
     options.shape_floor = 0.999;  // more than the start has: the start's is what must not be lowered
-    EXPECT_GE(worst_shape(untangle_guaranteed(mesh, options).coordinates), start);
-    options.shape_floor = 1.0;
-    EXPECT_THROW(untangle_guaranteed(mesh, options), InvalidInput);
+    EXPECT_GE(worst_shape(improve(mesh, options).coordinates), start);
+    GuaranteedOptions wrong;
+    wrong.shape_floor = 1.0;
+    EXPECT_THROW(untangle_guaranteed(mesh, wrong), InvalidInput);
 }
 
 TEST(GuaranteedSteps, LimitedWorkGoesToTheWorstElementsFirst) {
@@ -168,9 +169,9 @@ TEST(GuaranteedSteps, LimitedWorkGoesToTheWorstElementsFirst) {
     const QualitySummary start = summary_of(valid, valid.coordinates());
     ASSERT_EQ(start.invalid, 0);
     options.improves = true;
-    const Coordinates all = untangle_guaranteed(valid, options).coordinates;
+    const Coordinates all = untangle_guaranteed(mesh, options).coordinates;
     options.improve_work = 1e4;  // some 30 elements
-    const Coordinates few = untangle_guaranteed(valid, options).coordinates;
+    const Coordinates few = untangle_guaranteed(mesh, options).coordinates;
     const auto moved = [&](const Coordinates& x) {
         Index count = 0;
         for (Eigen::Index node = 0; node < x.rows(); ++node) count += x.row(node) != valid.coordinates().row(node);

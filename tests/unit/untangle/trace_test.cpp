@@ -12,7 +12,7 @@ namespace curvewright {
 namespace {
 
 TEST(TraceWriter, EveryLineIsAnEventWithTagsOfTheFile) {
-    const CurvedMesh mesh = testing::square_mesh(2, 3);
+    const CurvedMesh mesh = testing::bulged_square_mesh(2, 3, 0.3);
     std::ostringstream stream;
     TraceWriter writer(stream);
     SignedAngleOptions options;
