@@ -16,6 +16,7 @@
 #include "core/base/parallel.h"
 #include "core/basis/lagrange.h"
 #include "core/basis/reference_element.h"
+#include "core/tessellate/interface_edges.h"
 
 namespace curvewright {
 namespace {
@@ -148,6 +149,8 @@ struct CornerKey {
         for (int i = 0; i < count; ++i) corners[i] = nodes[part.nodes[i]];
         std::sort(corners.begin(), corners.end());
     }
+    /// Of an edge, ascending. The unused places come first.
+    std::array<Index, 2> ends() const { return {corners[2], corners[3]}; }
     bool operator<(const CornerKey& other) const {
         return std::tie(corners, element, local) < std::tie(other.corners, other.element, other.local);
     }
@@ -267,15 +270,17 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
     std::sort(nodes_.begin(), nodes_.end());
     nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 
-    find_edges(face_is_outer);
+    find_edges(face_is_outer, topology);
     choose_subdivisions(faces_, mesh.coordinates());
     choose_subdivisions(edges_, mesh.coordinates());
     lay_out();
     move(mesh.coordinates());
 }
 
-void Tessellation::find_edges(const std::vector<bool>& face_is_outer) {
+void Tessellation::find_edges(const std::vector<bool>& face_is_outer, const MeshTopology& topology) {
+    const std::vector<std::array<Index, 2>> interfaces = interface_edges(topology);
     line_is_boundary_.assign(edges_.size(), 1);
+    line_is_interface_.assign(edges_.size(), 0);
     line_is_rim_.assign(edges_.size(), 0);
     std::vector<CornerKey> keys;
     for (std::size_t face = 0; face < faces_.size(); ++face) {
@@ -300,6 +305,8 @@ void Tessellation::find_edges(const std::vector<bool>& face_is_outer) {
             patch_nodes_.push_back(global);
         }
         line_is_boundary_.push_back(end == i + 1 && !is_shrunk() ? 1 : 0);
+        line_is_interface_.push_back(
+            !is_shrunk() && std::binary_search(interfaces.begin(), interfaces.end(), keys[i].ends()) ? 1 : 0);
         std::size_t outer = 0;
         for (std::size_t key = i; key < end && !face_is_outer.empty(); ++key)
             outer += face_is_outer[static_cast<std::size_t>(keys[key].element)] ? 1 : 0;

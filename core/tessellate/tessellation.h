@@ -65,6 +65,8 @@ class Tessellation {
     const std::vector<Index>& line_elements() const { return line_elements_; }
     /// Per polyline: 1 if it lies on one drawn 2D element only (2D: on the mesh's boundary), else 0.
     const std::vector<std::uint8_t>& line_is_boundary() const { return line_is_boundary_; }
+    /// Per polyline: 1 if it is an edge of an interface inside the domain (see MeshTopology::interface_facets), else 0.
+    const std::vector<std::uint8_t>& line_is_interface() const { return line_is_interface_; }
     /// Per polyline: 1 where the drawn part of a solid's own surface ends, that is where one face that no other element
     /// of the mesh has meets faces inside it, else 0.
     const std::vector<std::uint8_t>& line_is_rim() const { return line_is_rim_; }
@@ -82,7 +84,7 @@ class Tessellation {
     };
 
     /// face_is_outer: per face, whether it is on the mesh's own surface; empty: all of them.
-    void find_edges(const std::vector<bool>& face_is_outer);
+    void find_edges(const std::vector<bool>& face_is_outer, const MeshTopology& topology);
     void choose_subdivisions(std::vector<Patch>& patches, const Coordinates& coordinates) const;
     int wanted_subdivisions(const Patch& patch, const Coordinates& coordinates,
                             const std::vector<Patch>& patches) const;
@@ -104,7 +106,7 @@ class Tessellation {
     std::vector<Patch> faces_, edges_;
     std::vector<float> surface_points_, surface_normals_, edge_points_;
     std::vector<Index> triangles_, triangle_elements_, line_offsets_, line_elements_, nodes_;
-    std::vector<std::uint8_t> line_is_boundary_, line_is_rim_;
+    std::vector<std::uint8_t> line_is_boundary_, line_is_rim_, line_is_interface_;
 };
 
 }  // namespace curvewright

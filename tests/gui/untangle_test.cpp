@@ -193,7 +193,7 @@ class UntangleTest : public QObject {
             test.file("linear.msh", square_mesh(4, 1)),
             test.file(
                 "ends.json",
-                R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 0.3 * (2 * x - 1)^8"}]})json"));
+                R"json({"operations": [{"group": "bottom", "type": "expression", "y": "y + 0.3 * (2 * x - 1)^8 + 0.27 * sin(pi * x)^8"}]})json"));
         const CurvedMesh tangled = *test.state().mesh;
         const GuaranteedResult expected = untangle_guaranteed(tangled);
         QVERIFY(expected.unmended.size() > 1);

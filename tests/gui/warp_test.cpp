@@ -13,6 +13,7 @@
 #include "core/warp/incremental.h"
 #include "tests/gui/gui_test_support.h"
 #include "ui/main_window/mesh_view.h"
+#include "ui/panels/banner.h"
 
 using namespace curvewright;
 using namespace curvewright::testing;
@@ -81,7 +82,10 @@ class WarpTest : public QObject {
         test.window->show_tab(QStringLiteral("warp"));
         QVERIFY(test.warp_and_wait());
         QVERIFY(test.document().state().quality->orientation == Orientation::mixed);
-        QVERIFY(!test.find<QWidget>("banner")->isVisible());
+        // What is told is that they are tangled.
+        const QString told = test.find<Banner>("banner")->text();
+        QVERIFY2(told.contains(QStringLiteral("tangled")) && !told.contains(QStringLiteral("numbered")),
+                 qPrintable(told));
     }
 
     void shows_the_fields_of_the_choices() {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <set>
 
 #include <QCollator>
@@ -9,6 +10,7 @@
 #include <QLocale>
 #include <QStringList>
 
+#include "core/boundary/boundary_rules.h"
 #include "ui/document/core_words.h"
 #include "ui/document/number_format.h"
 
@@ -33,14 +35,47 @@ std::vector<Index> elements_of_group(const MeshTopology& topology, const Physica
     } else if (group.dimension == topology.dimension() - 1) {
         std::vector<bool> in_group(static_cast<std::size_t>(topology.node_count()), false);
         for (Index node : nodes) in_group[static_cast<std::size_t>(node)] = true;
-        for (const Facet& facet : topology.boundary_facets()) {
+        const auto is_in_group = [&](const Facet& facet) {
             const auto facet_nodes = topology.facet_nodes(facet);
-            const bool is_inside = std::all_of(facet_nodes.begin(), facet_nodes.end(),
-                                               [&](Index node) { return in_group[static_cast<std::size_t>(node)]; });
-            if (is_inside && (elements.empty() || elements.back() != facet.element)) elements.push_back(facet.element);
-        }
+            return std::all_of(facet_nodes.begin(), facet_nodes.end(),
+                               [&](Index node) { return in_group[static_cast<std::size_t>(node)]; });
+        };
+        for (const Facet& facet : topology.boundary_facets())
+            if (is_in_group(facet)) elements.push_back(facet.element);
+        // Of an interface those on both sides.
+        const std::vector<Facet>& interfaces = topology.interface_facets();
+        for (std::size_t i = 0; i < interfaces.size(); ++i)
+            if (is_in_group(interfaces[i]))
+                elements.insert(elements.end(), {interfaces[i].element, topology.interface_neighbours()[i]});
+        std::sort(elements.begin(), elements.end());
+        elements.erase(std::unique(elements.begin(), elements.end()), elements.end());
     }
     return elements;
+}
+
+/// What lies between regions without a group of its own, under the name that boundary rules have for it; none if there
+/// is nothing of the kind, or if a group has this name.
+std::optional<GroupLine> unnamed_interfaces(const MeshTopology& topology) {
+    GroupLine line{QString::fromLatin1(all_interfaces_name), topology.dimension() - 1, {}, {}};
+    for (const PhysicalGroup& group : topology.groups())
+        if (MeshTopology::display_name(group) == all_interfaces_name) return std::nullopt;
+    std::vector<bool> is_unnamed(static_cast<std::size_t>(topology.node_count()), false);
+    for (const auto& [node, names] : names_of_interface_nodes(topology))
+        if (names.contains(all_interfaces_name)) {
+            line.nodes.push_back(node);
+            is_unnamed[static_cast<std::size_t>(node)] = true;
+        }
+    if (line.nodes.empty()) return std::nullopt;
+    const std::vector<Facet>& facets = topology.interface_facets();
+    for (std::size_t i = 0; i < facets.size(); ++i) {
+        const auto nodes = topology.facet_nodes(facets[i]);
+        if (std::any_of(nodes.begin(), nodes.end(),
+                        [&](Index node) { return is_unnamed[static_cast<std::size_t>(node)]; }))
+            line.elements.insert(line.elements.end(), {facets[i].element, topology.interface_neighbours()[i]});
+    }
+    std::sort(line.elements.begin(), line.elements.end());
+    line.elements.erase(std::unique(line.elements.begin(), line.elements.end()), line.elements.end());
+    return line;
 }
 
 }  // namespace
@@ -92,6 +127,7 @@ QVector<GroupLine> list_groups(const MeshTopology& topology) {
         std::vector<Index> elements = elements_of_group(topology, group, nodes);
         lines.push_back({QString::fromStdString(name), group.dimension, std::move(nodes), std::move(elements)});
     }
+    if (const auto interfaces = unnamed_interfaces(topology)) lines.push_back(*interfaces);
     // Not the locale of the environment: that of C does not know numbers.
     QCollator collator(QLocale(QLocale::English, QLocale::UnitedStates));
     collator.setNumericMode(true);  // hole2 before hole10

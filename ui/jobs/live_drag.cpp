@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <condition_variable>
 #include <deque>
+#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -26,6 +27,13 @@ bool is_same(const WarpOptions& a, const WarpOptions& b) {
 
 bool is_rest(const AffineMotion& motion) {
     return motion.shift.isZero(0.0) && motion.linear.isIdentity(0.0);
+}
+
+/// Whether two states of a mesh differ by no more than rounding: a few units in the last place of its coordinates.
+bool is_same_place(const Coordinates& a, const Coordinates& b) {
+    constexpr double rounding = 16.0 * std::numeric_limits<double>::epsilon();
+    if (a.rows() == 0) return true;
+    return (a - b).cwiseAbs().maxCoeff() <= rounding * a.cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -166,6 +174,7 @@ void LiveDrag::begin(const DragRequest& request) {
     used_rules_ = rules_;
     used_pins_ = pinned_;
     motion_ = {};
+    has_moved_ = false;
     report_ = start_.quality ? std::make_shared<QualityReport>(*start_.quality) : nullptr;
     finishes_ = false;
     set_up(request);
@@ -243,6 +252,7 @@ void LiveDrag::receive(std::shared_ptr<Drag> drag) {
 void LiveDrag::move(const AffineMotion& motion) {
     if (!is_active() || finishes_) return;
     motion_ = motion;
+    if (!is_rest(motion)) has_moved_ = true;
     if (phase_ != Phase::live || is_step_due_) return;
     // Moves that come faster than frames can be made are skipped.
     is_step_due_ = true;
@@ -303,7 +313,7 @@ void LiveDrag::certify_behind(const Coordinates& at) {
 
 void LiveDrag::finish() {
     if (!is_active()) return;
-    if (is_rest(motion_)) return cancel();
+    if (is_rest(motion_)) return leave();
     finishes_ = true;
     if (phase_ != Phase::live) return;  // receive() comes back here
     set_phase(Phase::finishing);
@@ -340,6 +350,7 @@ void LiveDrag::finish() {
 }
 
 void LiveDrag::finish_at(const Coordinates& positions) {
+    if (is_same_place(start_.mesh->coordinates(), positions)) return leave();
     end_ = positions;
     emit frame(end_, nullptr);
     if (!report_) return keep(nullptr);
@@ -365,6 +376,11 @@ void LiveDrag::keep(std::shared_ptr<QualityReport> report) {
     const QString name = request_.name;
     close(true);
     document_.apply(name, state, std::move(action));
+}
+
+void LiveDrag::leave() {
+    close(false);
+    if (has_moved_) emit nothing_moved();
 }
 
 void LiveDrag::cancel() {

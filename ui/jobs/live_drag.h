@@ -56,7 +56,8 @@ class LiveDrag : public QObject {
     void hold_frames(bool is_held);
     /// The hand is there now, relative to where it took hold.
     void move(const AffineMotion& motion);
-    /// Lets go: the motion becomes a step of the history (unless there is none). ended() follows.
+    /// Lets go: the motion becomes a step of the history, unless no node is farther from where it was than rounding
+    /// may take it. ended() follows.
     void finish();
     /// Everything back to where it was. ended() follows at once.
     void cancel();
@@ -69,6 +70,8 @@ class LiveDrag : public QObject {
     /// The drag is over; is_kept: it becomes a step of the history now. Otherwise the document's state is to be shown.
     void ended(bool is_kept);
     void failed(const QString& message);
+    /// After ended(): the hand has moved, but at the end nothing has.
+    void nothing_moved();
     /// What is being computed, and the fraction of it that is done: before the drag is live, and at its end if that is
     /// more than the last frame. "" = nothing any more.
     void working(const QString& phase, double fraction);
@@ -86,6 +89,8 @@ class LiveDrag : public QObject {
     void keep(std::shared_ptr<QualityReport> report);
     /// For a task of the worker: tells how far it is.
     TaskContext reporting(const TaskContext& context, int generation);
+    /// Ends without a step, and says so if the hand has moved.
+    void leave();
     void close(bool is_kept);
 
     MeshDocument& document_;
@@ -96,8 +101,8 @@ class LiveDrag : public QObject {
 
     Phase phase_ = Phase::idle;
     int generation_ = 0;  ///< results of older ones are dropped
-    bool is_allowed_ = true, is_held_ = false, is_step_due_ = false, is_certifying_ = false, is_newer_ = false,
-         finishes_ = false;
+    bool is_allowed_ = true, has_moved_ = false, is_held_ = false, is_step_due_ = false, is_certifying_ = false,
+         is_newer_ = false, finishes_ = false;
     MeshState start_;
     DragRequest request_;
     std::shared_ptr<Drag> drag_;

@@ -5,13 +5,35 @@
 #include "core/base/sha256.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
+<<<<<<< HEAD
+#include "ui/document/number_format.h"
+=======
 #include "core/io/matched_mesh.h"
 #include "core/mesh/conformity.h"
+>>>>>>> integration
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/operation_steps.h"
 #include "ui/jobs/window_provenance.h"
 
 namespace curvewright {
+
+namespace {
+
+/// None if no element is tangled.
+std::optional<Notice> warning_of_tangled(const QualityReport& quality, const QString& advice) {
+    std::vector<Index> tangled;
+    for (std::size_t i = 0; i < quality.elements.size(); ++i)
+        if (quality.elements[i].validity == Validity::invalid) tangled.push_back(static_cast<Index>(i));
+    if (tangled.empty()) return std::nullopt;
+    QString text =
+        tangled.size() == 1
+            ? MeshJobs::tr("1 element is tangled.")
+            : MeshJobs::tr("%1 elements are tangled.").arg(format_count(static_cast<long long>(tangled.size())));
+    if (!advice.isEmpty()) text += QLatin1Char(' ') + advice;
+    return Notice{NoticeSeverity::warning, text, {selecting_elements(std::move(tangled))}};
+}
+
+}  // namespace
 
 MeshJobs::MeshJobs(MeshDocument& document, QObject* parent) : QObject(parent), document_(document) {}
 
@@ -52,7 +74,6 @@ bool MeshJobs::open(OpenRequest request) {
                                 by_file(loaded->file_path));
             if (is_start) document_.mark_unchanged();
             if (then) then();
-            if (!opened.notes.isEmpty()) emit note(opened.notes.join(QLatin1Char(' ')));
         };
     });
 }
@@ -96,7 +117,7 @@ bool MeshJobs::load_deformation(const QString& path) {
 
 bool MeshJobs::run_step(const QString& title, bool applies_deformation,
                         std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep,
-                        std::function<void()> then) {
+                        std::function<void(bool)> then) {
     const MeshState start = document_.state();
     QStringList applied = start.applied_deformations;
     if (applies_deformation) applied << document_.deformation()->file_path;
@@ -108,24 +129,46 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         const std::stop_callback on_cancel(context.stop, stop), on_keep(keep, stop);
         Step result = step(*start.mesh, {either.get_token(), context.progress});
         context.check();
+        if (result.coordinates == start.mesh->coordinates()) return nothing_moved(std::move(result), then);
         MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context, &start);
         state.applied_deformations = applied;
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
             text += QLatin1Char(' ') + result.advice;
+        if (result.warns_of_tangled && state.quality)
+            if (auto warning = warning_of_tangled(*state.quality, result.advice)) result.notices.push_back(*warning);
         const QString details = full_details(result);
         Action action =
             result.action
                 ? std::move(*result.action)
                 : Action(place_action(start.mesh->topology(), start.mesh->coordinates(), state.mesh->coordinates()));
-        return [this, state = std::move(state), name = result.name, details, text, action = std::move(action), then] {
+        return JobRunner::Finish([this, state = std::move(state), name = result.name, details, text,
+                                  action = std::move(action), notices = std::move(result.notices), then] {
             document_.apply(name, state, action, details);
-            if (then) then();
+            if (then) then(true);
             if (!text.isEmpty()) emit note(text);
-        };
+            for (const Notice& notice : notices) emit noticed(notice);
+        });
     };
     if (can_keep) return runner_.start_keepable(title, std::move(work));
     return runner_.start(title, [work = std::move(work)](const TaskContext& context) { return work(context, {}); });
+}
+
+JobRunner::Finish MeshJobs::nothing_moved(Step result, std::function<void(bool)> then) {
+    std::vector<Notice> notices = std::move(result.notices);
+    if (notices.empty()) notices.push_back({NoticeSeverity::information, result.note});
+    // There is no step to be undone.
+    for (Notice& notice : notices)
+        for (NoticeAction& action : notice.actions) action.undoes = false;
+    Notice& first = notices.front();
+    first.topic = QStringLiteral("nothing_moved");
+    const QString why = first.text;
+    first.text = tr("Nothing moved, so there is no new step.");
+    if (!why.isEmpty()) first.text += QLatin1Char(' ') + why;
+    return [this, notices, then = std::move(then)] {
+        if (then) then(false);
+        for (const Notice& notice : notices) emit noticed(notice);
+    };
 }
 
 bool MeshJobs::deform() {
@@ -186,11 +229,16 @@ bool MeshJobs::write(const QString& path, std::optional<MeshFormat> format, bool
         options.fields = fields.get();
         options.provenance = &provenance;
         QString told = tr("Wrote %1.").arg(path);
+        QStringList lost;
         for (const std::string& text : write_mesh(to_path(path), *state.mesh, options))
-            told += QLatin1Char(' ') + QString::fromStdString(text);
+            lost << QString::fromStdString(text);
+        if (!lost.isEmpty()) told += QLatin1Char(' ') + lost.join(QLatin1Char(' '));
         return [=, this] {
             if (mark_saved) document_.mark_saved(QFileInfo(path).absoluteFilePath());
             emit note(told);
+            // What the file does not hold is still there in the window, and gone when the file is opened again.
+            if (!lost.isEmpty())
+                emit noticed({NoticeSeverity::warning, told, {}, NoticeLife::document, QStringLiteral("written")});
         };
     });
 }

@@ -10,6 +10,7 @@
 #include "core/timeline/recording.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
+#include "ui/document/notice.h"
 #include "ui/jobs/film.h"
 #include "ui/jobs/job_runner.h"
 #include "ui/jobs/reporting.h"
@@ -40,8 +41,8 @@ struct RecordedRun {
 };
 
 /// The operations of the window on its document: each takes a snapshot of the present state, calls the core on a worker
-/// thread, certifies the result there, and becomes one step of the history. A failed or cancelled job changes nothing.
-/// Each returns false, and does nothing, while another job is running.
+/// thread, certifies the result there, and becomes one step of the history. A failed or cancelled job changes nothing,
+/// and one that moves nothing leaves no step. Each returns false, and does nothing, while another job is running.
 class MeshJobs : public QObject {
     Q_OBJECT
 
@@ -96,14 +97,20 @@ class MeshJobs : public QObject {
     void recorded(const RecordedRun& run);
     /// What a finished operation has to say, one line: "Moved 3,232 interior nodes, iterative solver, 41 iterations."
     void note(const QString& text);
+    /// What is to stay told until somebody has read it, about the present state.
+    void noticed(const Notice& notice);
 
   private:
     void restore(const RestoredWork& work);
-    /// then: called on the window's thread after the document has the step.
+    /// A step that leaves every coordinate as it was, bit for bit, is none: that is noticed, and nothing else happens.
+    /// then: called on the window's thread after the document has the step; is_step: whether there is one.
     /// can_keep: where the context says stop, the step returns the best it has instead of throwing.
     bool run_step(const QString& title, bool applies_deformation,
                   std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false,
-                  std::function<void()> then = {});
+                  std::function<void(bool is_step)> then = {});
+
+    /// What is told instead of a step. Of a worker thread; what it returns is of the window's.
+    JobRunner::Finish nothing_moved(Step result, std::function<void(bool is_step)> then);
 
     MeshDocument& document_;
     JobRunner runner_;

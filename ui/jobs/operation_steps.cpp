@@ -66,28 +66,55 @@ QString describe_increments(const IncrementReport& report, const MeshTopology& t
     return QString::fromStdString(describe(report, topology)).replace(minus, QString(QChar(0x2212)));
 }
 
+QString nodes_text(std::size_t count) {
+    return count == 1 ? tr("1 node") : tr("%1 nodes").arg(format_count(static_cast<long long>(count)));
+}
+
+/// "" if all nodes got the weights that were asked for.
+QString outside_hull_text(const WarpReport& report) {
+    const std::size_t count = report.outside_hull.size();
+    if (count == 0) return {};
+    return count == 1 ? tr("1 node has no convex weights and took affine ones.")
+                      : tr("%1 have no convex weights and took affine ones.").arg(nodes_text(count));
+}
+
+QString degenerate_text(const WarpReport& report) {
+    const std::size_t count = report.degenerate.size();
+    if (count == 0) return {};
+    return count == 1 ? tr("1 node has degenerate neighbours and took least-squares weights.")
+                      : tr("%1 have degenerate neighbours and took least-squares weights.").arg(nodes_text(count));
+}
+
 QString describe_warp(const WarpReport& report) {
     QString text = tr("%1 interior nodes followed the boundary").arg(format_count(report.interior_nodes));
     text += report.solver == SolverChoice::direct
                 ? tr(" (direct solver).")
                 : tr(" (iterative solver, %1 iterations).").arg(format_count(report.iterations));
-    if (!report.outside_hull.empty())
-        text += tr(" %1 nodes have no convex weights and took affine ones.")
-                    .arg(format_count(static_cast<long long>(report.outside_hull.size())));
-    if (!report.degenerate.empty())
-        text += tr(" %1 nodes have degenerate neighbours and took least-squares weights.")
-                    .arg(format_count(static_cast<long long>(report.degenerate.size())));
+    for (const QString& special : {outside_hull_text(report), degenerate_text(report)})
+        if (!special.isEmpty()) text += QLatin1Char(' ') + special;
     return text;
+}
+
+/// way: how far it went, in words.
+Notice incomplete_notice(const IncrementReport& report, const QString& way) {
+    Notice notice{NoticeSeverity::warning, way, {}, NoticeLife::step};
+    if (report.failed_element) notice.actions.push_back(selecting_elements({*report.failed_element}));
+    return notice;
+}
+
+/// Nodes that did not get the weights that were asked for.
+void add_weight_notices(const WarpReport& report, std::vector<Notice>& notices) {
+    const auto add = [&notices](NoticeSeverity severity, const std::vector<Index>& nodes, const QString& text) {
+        if (!nodes.empty()) notices.push_back({severity, text, {selecting_nodes(nodes)}, NoticeLife::step});
+    };
+    add(NoticeSeverity::information, report.outside_hull, outside_hull_text(report));
+    add(NoticeSeverity::warning, report.degenerate, degenerate_text(report));
 }
 
 Index moved_nodes(const Coordinates& a, const Coordinates& b) {
     Index count = 0;
     for (Eigen::Index row = 0; row < a.rows(); ++row) count += (a.row(row) != b.row(row));
     return count;
-}
-
-QString nodes_text(std::size_t count) {
-    return count == 1 ? tr("1 node") : tr("%1 nodes").arg(format_count(static_cast<long long>(count)));
 }
 
 QString drag_name(const DragAction& action) {
@@ -110,9 +137,12 @@ Step deform_step(const CurvedMesh& mesh, const LoadedDeformation& loaded) {
     step.action = DeformAction{loaded.file_path.toStdString()};
     step.name = tr("Deform boundary");
     step.details = by_file(loaded.file_path);
-    step.note = tr("Moved %1 boundary nodes; the interior stayed where it was.")
-                    .arg(format_count(moved_nodes(mesh.coordinates(), step.coordinates)));
+    const Index moved = moved_nodes(mesh.coordinates(), step.coordinates);
+    step.note = moved == 0 ? tr("The deformation leaves the boundary where it is.")
+                           : tr("Moved %1 boundary nodes; the interior stayed where it was.").arg(format_count(moved));
     step.advice = tr("Untangle the elements that have tangled, or undo and warp instead.");
+    // That is what one expects of it, and the view and the verdict show it.
+    step.warns_of_tangled = false;
     return step;
 }
 
@@ -123,7 +153,12 @@ Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const Wa
     Step step;
     step.details = by_file(loaded.file_path) + QLatin1Char('\n') + warp_details(options, increments);
     double fraction = 1.0;
-    if (increments) {
+    WarpReport report;
+    if (apply_deformation(mesh, *loaded.deformation) == mesh.coordinates()) {
+        // Weights would only add rounding.
+        step.coordinates = mesh.coordinates();
+        step.note = tr("The deformation leaves the boundary where it is.");
+    } else if (increments) {
         const BoundaryPath path = [&](double part) { return apply_deformation(mesh, *loaded.deformation, part); };
         IncrementObserver observer;
         if (recorder) {
@@ -148,13 +183,17 @@ Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const Wa
         } else {
             step.note = way;
             step.details += QLatin1Char('\n') + followed;
+            step.notices.push_back(incomplete_notice(result.increments, way));
         }
+        report = std::move(result.report);
         step.coordinates = std::move(result.coordinates);
     } else {
         WarpResult result = warp(mesh, apply_deformation(mesh, *loaded.deformation), with_interfaces, context);
         step.note = describe_warp(result.report);
+        report = std::move(result.report);
         step.coordinates = std::move(result.coordinates);
     }
+    add_weight_notices(report, step.notices);
     step.action = WarpAction{loaded.file_path.toStdString(), options, increments};
     step.name = warp_name(options, increments, fraction);
     step.advice =

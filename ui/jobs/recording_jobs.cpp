@@ -38,9 +38,10 @@ bool MeshJobs::untangle_recorded(const UntangleOptions& options) {
             return step;
         },
         method_of(options) == UntangleMethod::guaranteed,
-        [this, options, outlet] {
-            const int step = document_.history()->index() - 1;
-            emit recorded({outlet->recording, document_.history()->text(step), options, step});
+        [this, options, outlet](bool is_step) {
+            const int step = is_step ? document_.history()->index() - 1 : -1;
+            const QString name = is_step ? document_.history()->text(step) : tr("An untangling that moved nothing");
+            emit recorded({outlet->recording, name, options, step});
         });
 }
 

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include <QString>
 
 #include "core/session/action.h"
+#include "ui/document/notice.h"
 
 namespace curvewright {
 
@@ -17,6 +19,10 @@ struct Step {
     /// What was done, for the session; none: it would not come out the same again, so the moved nodes are recorded.
     std::optional<Action> action;
     QString advice;  ///< what to do next if elements are tangled in the new state
+    /// What stays told until somebody has read it, about the new state.
+    std::vector<Notice> notices;
+    /// Whether a notice with the advice is to be made of elements that are tangled in the new state.
+    bool warns_of_tangled = true;
 };
 
 }  // namespace curvewright

@@ -1,5 +1,8 @@
 #include "ui/jobs/untangling.h"
 
+#include <set>
+#include <string>
+
 #include <QCoreApplication>
 #include <QStringList>
 
@@ -17,14 +20,55 @@ QString seconds_text(double seconds) {
     return tr("%1 s").arg(QString::number(seconds, 'f', seconds < 0.1 ? 3 : seconds < 10.0 ? 2 : 1));
 }
 
-/// The elements that are still not valid: how many, the first and what is wrong with it.
-QString describe_unmended(const std::vector<UnmendedElement>& unmended, const MeshTopology& topology) {
-    const UnmendedElement& first = unmended.front();
+/// Elements for which the same is known: how many, the first and what is wrong with it. That they cannot be mended is
+/// said only where it is proved.
+QString describe_alike(const std::vector<const UnmendedElement*>& unmended, const MeshTopology& topology) {
+    const UnmendedElement& first = *unmended.front();
     const QString tag = QString::number(topology.element_tag(first.element).value);
     const QString reason = QString::fromStdString(first.reason);
-    if (unmended.size() == 1) return tr("Element %1 cannot be mended with the boundary as it is: %2.").arg(tag, reason);
-    return tr("%1 elements cannot be mended with the boundary as it is; the first is element %2: %3.")
+    if (unmended.size() == 1)
+        return (first.is_proved ? tr("Element %1 cannot be mended with the boundary as it is: %2.")
+                                : tr("No way was found to mend element %1 with the boundary as it is: %2."))
+            .arg(tag, reason);
+    return (first.is_proved
+                ? tr("%1 elements cannot be mended with the boundary as it is; the first is element %2: %3.")
+                : tr("No way was found to mend %1 elements with the boundary as it is; the first is element %2: %3."))
         .arg(format_count(static_cast<long long>(unmended.size())), tag, reason);
+}
+
+/// The elements that are still not valid.
+QString describe_unmended(const std::vector<UnmendedElement>& unmended, const MeshTopology& topology) {
+    std::vector<const UnmendedElement*> proved, others;
+    for (const UnmendedElement& element : unmended) (element.is_proved ? proved : others).push_back(&element);
+    QStringList text;
+    for (const auto& alike : {proved, others})
+        if (!alike.empty()) text << describe_alike(alike, topology);
+    return text.join(QLatin1Char(' '));
+}
+
+/// What stays told of them, with the way on if there is one.
+Notice unmended_notice(const GuaranteedResult& result, const GuaranteedOptions& options, const QString& advice,
+                       const MeshTopology& topology) {
+    std::vector<Index> elements;
+    for (const UnmendedElement& its : result.unmended) elements.push_back(its.element);
+    const QString text = result.reason == StopReason::cancelled
+                             ? tr("Stopped on request; %1 elements are not mended yet.")
+                                   .arg(format_count(static_cast<long long>(elements.size())))
+                             : describe_unmended(result.unmended, topology) + QLatin1Char(' ') + advice;
+    Notice notice{NoticeSeverity::warning, text, {selecting_elements(std::move(elements))}};
+    if (result.reason == StopReason::cancelled) return notice;
+    std::set<std::string> interfaces;
+    for (const UnmendedElement& its : result.unmended)
+        interfaces.insert(its.fixed_interfaces.begin(), its.fixed_interfaces.end());
+    if (!interfaces.empty()) {
+        QStringList names;
+        for (const std::string& name : interfaces) names << QStringLiteral("“%1”").arg(QString::fromStdString(name));
+        notice.text += QLatin1Char(' ') +
+                       tr("What stays inside the domain may be in the way: %1.").arg(names.join(QStringLiteral(", ")));
+    }
+    for (auto& slide : {sliding_interfaces(options, interfaces, true), sliding_boundary(options, true)})
+        if (slide) notice.actions.push_back(*slide);
+    return notice;
 }
 
 QString describe_untangling(const GuaranteedResult& result, const GuaranteedOptions& options,
@@ -76,6 +120,10 @@ Step run(const CurvedMesh& mesh, GuaranteedOptions options, UntangleObserver* ob
     step.advice = options.boundary.is_all_fixed()
                       ? tr("Let the boundary slide, move it less, or refine the mesh there.")
                       : tr("Move the boundary less, or refine the mesh there.");
+    if (!result.unmended.empty()) {
+        step.notices.push_back(unmended_notice(result, options, step.advice, mesh.topology()));
+        step.warns_of_tangled = false;
+    }
     step.coordinates = std::move(result.coordinates);
     // One that was stopped does not come out the same again.
     if (result.reason != StopReason::cancelled) step.action = UntangleAction{options};

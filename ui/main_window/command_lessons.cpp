@@ -51,6 +51,7 @@ const Lesson lessons[] = {
     {CommandId::worst_only, TEXT("To find what limits the quality, also deep inside a solid.")},
     {CommandId::compare, TEXT("One camera moves both, so the same place can be compared.")},
     {CommandId::legend, TEXT("It also marks where the worst element is.")},
+    {CommandId::panel_log, TEXT("To read again what has gone from the view, or to copy it for somebody else.")},
     {CommandId::palette, TEXT("Quicker than the menus, and it tells the keys.")},
 };
 // clang-format on

@@ -87,6 +87,7 @@ const Command command_list[] = {
     {CommandId::panel_mesh, CommandMenu::panels, "panel_mesh", TEXT("&Mesh and history"), TEXT("Show or hide the panel of the mesh, its groups and its history"), "", "F7", true},
     {CommandId::panel_operations, CommandMenu::panels, "panel_operations", TEXT("&Operations"), TEXT("Show or hide the panel of the tabs and of the worst elements"), "", "F8", true},
     {CommandId::panel_quality, CommandMenu::panels, "panel_quality", TEXT("&Histograms"), TEXT("Show or hide the panel of the histograms"), "", "F9", true},
+    {CommandId::panel_log, CommandMenu::panels, "panel_log", TEXT("M&essages"), TEXT("Show or hide everything that was told in this session"), "", "Shift+F9", true},
     {CommandId::next_area, CommandMenu::panels, "next_area", TEXT("Keyboard to the &next area"), TEXT("Move the keyboard from the view to the panels, one after another"), "", "F6", false, true},
     {CommandId::previous_area, CommandMenu::panels, "previous_area", TEXT("Keyboard to the &previous area"), TEXT("Move the keyboard the other way round"), "", "Shift+F6"},
     {CommandId::reset_layout, CommandMenu::view, "reset_layout", TEXT("&Reset layout"), TEXT("Put all panels back where they were at first"), "", "", false, true},

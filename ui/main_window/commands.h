@@ -88,6 +88,7 @@ enum class CommandId {
     panel_mesh,
     panel_operations,
     panel_quality,
+    panel_log,
     next_area,
     previous_area,
     reset_layout,

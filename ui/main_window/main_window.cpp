@@ -17,7 +17,6 @@
 #include "ui/document/number_format.h"
 #include "ui/main_window/command_palette.h"
 #include "ui/main_window/mesh_view.h"
-#include "ui/panels/banner.h"
 #include "ui/panels/clip_bar.h"
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
@@ -62,6 +61,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     : theme_(theme),
       dialogs_(std::move(dialogs)),
       jobs_(document_),
+      notices_(document_),
       edit_(document_),
       drag_(document_),
       samples_(SampleCatalog::load()),
@@ -78,6 +78,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
     restore_layout();
     connect_commands();
     connect_document();
+    connect_notices();
     connect_panels();
     connect_editing();
     connect_colors();
@@ -177,13 +178,12 @@ void MainWindow::connect_document() {
     connect(&runner, &JobRunner::cancelled, this, [this](const QString& title) {
         after_save_ = nullptr;
         pending_format_.reset();
-        statusBar()->showMessage(tr("%1 was stopped; the mesh is as it was.").arg(title), 6000);
+        tell(tr("%1 was stopped; the mesh is as it was.").arg(title), 6000);
     });
     connect(&runner, &JobRunner::finished, this, [this] {
         if (pending_format_) saved_format_ = std::exchange(pending_format_, std::nullopt);
         if (after_save_ && !document_.is_dirty()) std::exchange(after_save_, nullptr)();
     });
-    connect(&jobs_, &MeshJobs::note, this, [this](const QString& text) { statusBar()->showMessage(text, 12000); });
 }
 
 void MainWindow::connect_panels() {
@@ -193,7 +193,6 @@ void MainWindow::connect_panels() {
     connect(start_page_, &StartPage::file_chosen, this, [this](const QString& path) { open_file(path); });
     connect(start_page_, &StartPage::sample_chosen, this, &MainWindow::open_sample);
     connect(deform_panel_, &DeformPanel::load_requested, this, &MainWindow::ask_load_deformation);
-    connect(banner_, &Banner::action_triggered, this, [this] { banner_action_(); });
     connect(clip_bar_, &ClipBar::changed, this, &MainWindow::update_options);
     connect(worst_table_, &WorstTable::element_chosen, this,
             [this](Index element) { select_elements({element}, true); });
@@ -239,13 +238,13 @@ void MainWindow::show_state() {
     if (actions_[CommandId::worst_only]->isChecked()) update_options();
     show_before();
     verdict_->clear();
-    banner_->hide();
-    banner_action_ = [this] { jobs_.flip(); };
     if (state.mesh && !state.quality) {
         verdict_->setText(tr("quality unknown"));
         set_tone(verdict_, "warning");
-        banner_->show_warning(state.quality_note, {});
     } else if (state.quality) {
+<<<<<<< HEAD
+        show_verdict(state.quality->summary);
+=======
         const QualitySummary& summary = state.quality->summary;
         show_verdict(summary);
         if (state.quality->orientation == Orientation::negative)
@@ -262,6 +261,7 @@ void MainWindow::show_state() {
             banner_->show_warning(tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; each "
                                      "is judged by its own numbering."),
                                   {});
+>>>>>>> integration
     }
     if (Tool* tool = current_tool()) tool->refresh();
     update_commands();

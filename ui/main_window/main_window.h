@@ -10,6 +10,8 @@
 #include "ui/document/edit_state.h"
 #include "ui/document/journal.h"
 #include "ui/document/mesh_document.h"
+#include "ui/document/message_log.h"
+#include "ui/document/notice_board.h"
 #include "ui/document/preferences.h"
 #include "ui/document/recent_files.h"
 #include "ui/document/sample_catalog.h"
@@ -38,6 +40,7 @@ class ClipBar;
 class ColorBar;
 class DeformPanel;
 class EditPanel;
+class LogPanel;
 class MeshPanel;
 class MeshView;
 class Nudge;
@@ -67,6 +70,8 @@ class MainWindow : public QMainWindow {
     LiveDrag& drag() { return drag_; }
     StepPlayer& player() { return player_; }
     MeshView& view() { return *view_; }
+    NoticeBoard& notices() { return notices_; }
+    MessageLog& log() { return log_; }
     QAction* action(CommandId id) const { return actions_[id]; }
 
     /// Opens a mesh, as File > Open does; asks first if the open one has unsaved changes. A .json or .csv file is
@@ -184,6 +189,20 @@ class MainWindow : public QMainWindow {
     void ask_export_film();
     void ask_export_quality();
 
+    // main_window_notices.cpp
+    void connect_notices();
+    /// Shows a notice over the view until it is dismissed, and logs it.
+    void receive(const Notice& notice);
+    void show_notices();
+    /// The button of a notice was pressed.
+    void act_on(int notice, int action);
+    /// Selects what an entry of the log speaks of, if the mesh is still that one.
+    void show_logged(const LogEntry& entry);
+    /// What a job or a command has to say of its end: in the status bar for a while, and in the log.
+    void tell(const QString& text, int milliseconds = 12000);
+    /// What is told now belongs to this: the last step that was done, or the mesh as opened.
+    QString present_step() const;
+
     // main_window_report.cpp
     void connect_report();
     void ask_report();
@@ -207,6 +226,8 @@ class MainWindow : public QMainWindow {
     Dialogs dialogs_;
     MeshDocument document_;
     MeshJobs jobs_;
+    NoticeBoard notices_;
+    MessageLog log_;
     EditState edit_;
     LiveDrag drag_;
     StepPlayer player_;
@@ -244,7 +265,9 @@ class MainWindow : public QMainWindow {
     TimelinePanel* timeline_panel_ = nullptr;
     StepPanel* step_panel_ = nullptr;
     StepTool* step_tool_ = nullptr;  ///< in place of the others while a timeline is open
-    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr, *timeline_dock_ = nullptr;
+    LogPanel* log_panel_ = nullptr;
+    QDockWidget *left_dock_ = nullptr, *right_dock_ = nullptr, *bottom_dock_ = nullptr, *timeline_dock_ = nullptr,
+                *log_dock_ = nullptr;
     QLabel *hint_ = nullptr, *verdict_ = nullptr;
     QMenu *recent_menu_ = nullptr, *samples_menu_ = nullptr, *panels_menu_ = nullptr, *bookmarks_menu_ = nullptr;
     QList<QAction*> bookmark_actions_;
@@ -252,7 +275,6 @@ class MainWindow : public QMainWindow {
     /// What the colours show of the elements, if it is computed; null = not yet.
     std::shared_ptr<const FieldArray> numbers_now_, numbers_before_;
 
-    std::function<void()> banner_action_;
     UntangleOptions options_of_run_;  ///< that the timeline shows
     int tab_before_timeline_ = 0;
     QList<int> sizes_before_timeline_;  ///< of the right splitter

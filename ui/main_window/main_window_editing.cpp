@@ -73,6 +73,8 @@ void MainWindow::connect_editing() {
         worst_table_->show_state();
         if (document_.state().quality) show_verdict(document_.state().quality->summary);
     });
+    connect(&drag_, &LiveDrag::nothing_moved, this,
+            [this] { tell(tr("Nothing moved, so there is no new step."), 6000); });
     connect(&drag_, &LiveDrag::failed, this,
             [this](const QString& message) { dialogs_.show_error(this, tr("Dragging failed"), message); });
     connect(&drag_, &LiveDrag::working, this, [this](const QString& phase, double fraction) {

@@ -247,9 +247,9 @@ void MainWindow::ask_save_picture() {
             [this](const QString& message) { dialogs_.show_error(this, tr("The picture was not saved"), message); });
     connect(dialog, &PictureDialog::saved, this, [this](const QString& path, QSize size) {
         const QString pixels = tr("%1 × %2 pixels").arg(size.width()).arg(size.height());
-        statusBar()->showMessage(path.isEmpty() ? tr("The picture is on the clipboard (%1).").arg(pixels)
-                                                : tr("Wrote %1 (%2).").arg(path, pixels),
-                                 8000);
+        tell(path.isEmpty() ? tr("The picture is on the clipboard (%1).").arg(pixels)
+                            : tr("Wrote %1 (%2).").arg(path, pixels),
+             8000);
     });
     dialog->show();
 }
@@ -279,7 +279,7 @@ void MainWindow::ask_export_quality() {
         return;
     }
     remember_folder(path);
-    statusBar()->showMessage(tr("Wrote %1.").arg(path), 8000);
+    tell(tr("Wrote %1.").arg(path), 8000);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

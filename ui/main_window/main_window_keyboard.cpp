@@ -16,7 +16,9 @@
 #include "ui/main_window/mesh_view.h"
 #include "ui/main_window/preferences_dialog.h"
 #include "ui/main_window/shortcuts.h"
+#include "ui/panels/banner.h"
 #include "ui/panels/focus_frame.h"
+#include "ui/panels/log_panel.h"
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/pointer_tag.h"
 #include "ui/panels/quality_panel.h"
@@ -86,7 +88,8 @@ void MainWindow::connect_keyboard() {
         QDockWidget* dock;
     } panels[] = {{CommandId::panel_mesh, left_dock_},
                   {CommandId::panel_operations, right_dock_},
-                  {CommandId::panel_quality, bottom_dock_}};
+                  {CommandId::panel_quality, bottom_dock_},
+                  {CommandId::panel_log, log_dock_}};
     for (const auto& panel : panels) {
         QAction *command = actions_[panel.id], *toggle = panel.dock->toggleViewAction();
         command->setChecked(toggle->isChecked());
@@ -95,6 +98,13 @@ void MainWindow::connect_keyboard() {
             if (toggle->isChecked() != is_shown) toggle->trigger();
         });
     }
+
+    // Beside other docks it would come up behind them.
+    on(CommandId::panel_log, [this](bool is_shown) {
+        if (!is_shown) return;
+        log_dock_->raise();
+        for (QTabBar* bar : findChildren<QTabBar*>(QString(), Qt::FindDirectChildrenOnly)) bar->setDrawBase(false);
+    });
 
     nudge_ = new Nudge({*view_, edit_, drag_}, view_, this);
     connect(nudge_, &Nudge::refused, this, [this](const QString& why) { statusBar()->showMessage(why, 6000); });
@@ -114,8 +124,8 @@ void MainWindow::connect_keyboard() {
 void MainWindow::go_to_area(int step) {
     std::vector<QWidget*> areas;
     QWidget* center = center_->currentWidget() == start_page_ ? static_cast<QWidget*>(start_page_) : view_;
-    for (QWidget* area :
-         std::initializer_list<QWidget*>{center, mesh_panel_, tabs_, worst_table_, quality_panel_, timeline_panel_})
+    for (QWidget* area : std::initializer_list<QWidget*>{banner_, center, mesh_panel_, tabs_, worst_table_,
+                                                         quality_panel_, timeline_panel_, log_panel_})
         if (area->isVisible()) areas.push_back(area);
     const QWidget* now = focusWidget();
     const auto here = std::find_if(areas.begin(), areas.end(), [&](const QWidget* area) {

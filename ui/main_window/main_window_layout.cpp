@@ -24,6 +24,7 @@
 #include "ui/panels/color_bar.h"
 #include "ui/panels/edit_panel.h"
 #include "ui/panels/job_bar.h"
+#include "ui/panels/log_panel.h"
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
@@ -205,6 +206,7 @@ void MainWindow::build_docks() {
     quality_panel_ = new QualityPanel(document_, theme_);
     timeline_panel_ = new TimelinePanel(player_, edit_, theme_);
     step_panel_ = new StepPanel(theme_);
+    log_panel_ = new LogPanel(log_, theme_);
 
     tabs_ = new QTabWidget;
     tabs_->setObjectName(QStringLiteral("operations_tabs"));
@@ -243,19 +245,24 @@ void MainWindow::build_docks() {
         add_dock(QStringLiteral("quality_dock"), tr("Scaled Jacobian"), Qt::BottomDockWidgetArea, quality_panel_);
     timeline_dock_ =
         add_dock(QStringLiteral("timeline_dock"), tr("Timeline"), Qt::BottomDockWidgetArea, timeline_panel_);
+    log_dock_ = add_dock(QStringLiteral("log_dock"), tr("Messages"), Qt::BottomDockWidgetArea, log_panel_);
     setTabPosition(Qt::BottomDockWidgetArea, QTabWidget::North);
     tabifyDockWidget(bottom_dock_, timeline_dock_);
+    tabifyDockWidget(bottom_dock_, log_dock_);
     setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
     // The tabs and the headings say what these two are.
     right_dock_->setTitleBarWidget(new QWidget);
     bottom_dock_->setTitleBarWidget(new QWidget);
     timeline_dock_->setTitleBarWidget(new QWidget);
     left_dock_->setTitleBarWidget(new QWidget);
+    log_dock_->setTitleBarWidget(new QWidget);
     resizeDocks({left_dock_, right_dock_}, {240, 288}, Qt::Horizontal);
     resizeDocks({bottom_dock_}, {176}, Qt::Vertical);
     // Until there is a recording.
     timeline_dock_->hide();
     timeline_dock_->toggleViewAction()->setEnabled(false);
+    // Until somebody asks for it.
+    log_dock_->hide();
 }
 
 void MainWindow::build_status_bar() {
@@ -312,6 +319,7 @@ void MainWindow::save_layout() const {
 
 void MainWindow::reset_layout() {
     restoreState(first_layout_, layout_version);
+    log_dock_->hide();
     timeline_dock_->setVisible(player_.is_open());
     for (QDockWidget* dock : {left_dock_, right_dock_, bottom_dock_}) {
         dock->setProperty("closed_by_user", false);

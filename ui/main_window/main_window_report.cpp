@@ -1,12 +1,9 @@
 // The report of the last untangling.
 
 #include <QAction>
-#include <QDesktopServices>
 #include <QDir>
-#include <QUrl>
 
 #include "ui/main_window/main_window.h"
-#include "ui/panels/banner.h"
 #include "ui/scene/report_painter.h"
 
 namespace curvewright {
@@ -52,8 +49,9 @@ void MainWindow::ask_report() {
     request.then = [this](const QString& path, const QString& remark) {
         QString text = tr("The report is written: %1.").arg(QDir::toNativeSeparators(path));
         if (!remark.isEmpty()) text += QLatin1Char(' ') + remark;
-        banner_->show_note(text, tr("Open"));
-        banner_action_ = [path] { QDesktopServices::openUrl(QUrl::fromLocalFile(path)); };
+        Notice notice{NoticeSeverity::information, text, {}, NoticeLife::state, QStringLiteral("report")};
+        notice.actions.push_back({NoticeCommand::open_file, {}, path});
+        receive(notice);
     };
     if (!jobs_.write_report(std::move(request))) disconnect(*release);
 }

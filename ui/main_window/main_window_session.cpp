@@ -32,9 +32,8 @@ void MainWindow::connect_session() {
             dialogs_.show_error(this, tr("The session was not saved"), QString::fromUtf8(problem.what()));
             return;
         }
-        statusBar()->showMessage(
-            tr("Wrote %1 (%2 actions).").arg(path, format_count(static_cast<long long>(document_.session().size()))),
-            8000);
+        tell(tr("Wrote %1 (%2 actions).").arg(path, format_count(static_cast<long long>(document_.session().size()))),
+             8000);
     });
     connect(actions_[CommandId::open_session], &QAction::triggered, this, &MainWindow::ask_open_session);
     // When the window is there, and not before whatever the command line asks to open.
@@ -72,7 +71,9 @@ void MainWindow::recover(const LostWork& lost) {
         jobs_.recover(lost.path, [this, lost](const RestoredWork& work) {
             journal_->take_over(lost, work.intact_bytes, work.records);
             const QString saved = tr("Recovered with its history; save it to keep it.");
-            statusBar()->showMessage(work.remark.isEmpty() ? saved : work.remark + QLatin1Char(' ') + saved, 12000);
+            if (work.remark.isEmpty()) return tell(saved);
+            tell(work.remark + QLatin1Char(' ') + saved);
+            receive({NoticeSeverity::warning, work.remark, {}, NoticeLife::document});
         });
     });
 }

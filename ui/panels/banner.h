@@ -1,37 +1,44 @@
 #pragma once
 
-#include <functional>
+#include <vector>
 
 #include <QWidget>
 
+#include "ui/document/notice_board.h"
 #include "ui/panels/theme.h"
 
-class QLabel;
 class QPushButton;
 
 namespace curvewright {
 
-/// A line over the view that warns of something and offers to put it right, or tells of something that was done.
+/// What is to be read, in lines over the view that stay until they are dismissed: each with its kind, its text, which
+/// wraps, and buttons that do something about it. Takes nobody's keyboard; Tab and F6 lead into it.
 class Banner : public QWidget {
     Q_OBJECT
 
   public:
     explicit Banner(const Theme& theme, QWidget* parent = nullptr);
+    ~Banner() override;
 
-    /// Shows a text; action may be "" (no button).
-    void show_warning(const QString& text, const QString& action);
-    void show_note(const QString& text, const QString& action);
+    /// Shows these, the first few of them until somebody asks for the others; hides the banner if there are none.
+    void show_lines(const std::vector<NoticeBoard::Line>& lines);
+    /// What is shown, a line each.
     QString text() const;
 
   signals:
-    void action_triggered();
+    /// A button of a notice: its place among NoticeBoard::Line::notice.actions.
+    void action_triggered(int id, int action);
+    void dismissed(int id);
 
   private:
-    void show_text(const QString& text, const QString& action, const char* tone);
+    class Row;
 
-    QLabel *warning_icon_ = nullptr, *note_icon_ = nullptr;
-    QLabel* text_ = nullptr;
-    QPushButton* action_ = nullptr;
+    void fill();
+
+    const Theme& theme_;
+    std::vector<NoticeBoard::Line> lines_;
+    std::vector<Row*> rows_;  ///< made when needed, and used again
+    QPushButton* more_ = nullptr;
 };
 
 }  // namespace curvewright

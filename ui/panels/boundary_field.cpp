@@ -1,6 +1,8 @@
 #include "ui/panels/boundary_field.h"
 
 #include <algorithm>
+#include <set>
+#include <string>
 
 #include <QApplication>
 #include <QFormLayout>
@@ -45,7 +47,8 @@ class ChoiceDelegate : public QStyledItemDelegate {
 
 }  // namespace
 
-BoundaryField::BoundaryField(const QString& name, const Texts& texts, QObject* parent) : QObject(parent), name_(name) {
+BoundaryField::BoundaryField(const QString& name, const Texts& texts, QObject* parent)
+    : QObject(parent), name_(name), has_interfaces_(texts.has_interfaces) {
     std::vector<curvewright::Choice> choices{{tr("Stays"), int(Mode::fixed), texts.fixed},
                                              {tr("Slides along itself"), int(Mode::slide), texts.slide}};
     if (!texts.free.isEmpty()) choices.push_back({tr("Follows freely"), int(Mode::free), texts.free});
@@ -96,14 +99,24 @@ void BoundaryField::list_groups(const MeshTopology* topology) {
         for (const PhysicalGroup& group : topology->groups())
             if (group.dimension == topology->dimension() - 1 && !group.name.empty())
                 names << QString::fromStdString(group.name);
+    QStringList inside;
+    if (topology && has_interfaces_) {
+        std::set<std::string> all;
+        for (const auto& [node, its] : names_of_interface_nodes(*topology)) all.insert(its.begin(), its.end());
+        for (const std::string& its : all) inside << QString::fromStdString(its);
+        names += inside;
+    }
     names.removeDuplicates();
-    if (names == group_names_ && is_listed_) return;
+    if (names == group_names_ && inside == inside_names_ && is_listed_) return;
     is_listed_ = true;
     group_names_ = names;
+    inside_names_ = inside;
     groups_->clear();
     for (const QString& group : names) {
         auto* item = new QTreeWidgetItem(groups_, {group});
-        item->setToolTip(0, group);
+        item->setToolTip(0, inside.contains(group)
+                                ? tr("%1, inside the domain: stays unless this says otherwise").arg(group)
+                                : group);
         item->setSizeHint(1, {mode_width, group_row_height});
         set_mode(item, BoundaryMode::fixed);
     }
@@ -191,6 +204,25 @@ BoundaryRules BoundaryField::rules() const {
             break;
     }
     return rules;
+}
+
+void BoundaryField::set_rules(const BoundaryRules& rules) {
+    const auto choose = [this](Mode mode) { choice_->setCurrentIndex(choice_->findData(int(mode))); };
+    if (rules.groups.empty()) {
+        choose(rules.otherwise == BoundaryMode::fixed   ? Mode::fixed
+               : rules.otherwise == BoundaryMode::slide ? Mode::slide
+                                                        : Mode::free);
+        return;
+    }
+    choose(Mode::by_group);
+    for (int row = 0; row < groups_->topLevelItemCount(); ++row) {
+        QTreeWidgetItem* item = groups_->topLevelItem(row);
+        BoundaryMode mode = inside_names_.contains(item->text(0)) ? BoundaryMode::fixed : rules.otherwise;
+        for (const BoundaryRules::Rule& rule : rules.groups)
+            if (rule.group == item->text(0).toStdString()) mode = rule.mode;
+        set_mode(item, mode);
+    }
+    emit changed();
 }
 
 }  // namespace curvewright

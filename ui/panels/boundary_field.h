@@ -21,6 +21,7 @@ class BoundaryField : public QObject {
     /// What the choices say of themselves.
     struct Texts {
         QString tip, fixed, slide, free, by_group;  ///< a tip of "" leaves the choice out
+        bool has_interfaces = false;                ///< whether the rules are for interfaces inside the domain, too
     };
     /// name: object name of the choice; the list is called NAME_groups.
     BoundaryField(const QString& name, const Texts& texts, QObject* parent);
@@ -33,6 +34,9 @@ class BoundaryField : public QObject {
     /// The named parts of a mesh's boundary; null: none. Parts of the same names keep what they may do.
     void list_groups(const MeshTopology* topology);
     BoundaryRules rules() const;
+    /// Shows rules. Of groups and a rule for the rest that is not "stays", the rest is told of every group that has no
+    /// rule of its own.
+    void set_rules(const BoundaryRules& rules);
 
   signals:
     void changed();
@@ -48,10 +52,11 @@ class BoundaryField : public QObject {
     static QString mode_text(BoundaryMode mode);
 
     QString name_;
+    bool has_interfaces_;
     QFormLayout* form_ = nullptr;
     QComboBox* choice_ = nullptr;
     QTreeWidget* groups_ = nullptr;
-    QStringList group_names_;
+    QStringList group_names_, inside_names_;  ///< inside: of interfaces
     bool is_visible_ = true, is_listed_ = false;
 };
 

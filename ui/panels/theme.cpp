@@ -137,9 +137,13 @@ QByteArray Theme::recolored(const QString& icon_name, const QColor& line, const 
 }
 
 QIcon Theme::icon(const QString& name) const {
+    return icon(name, QStringLiteral("text"));
+}
+
+QIcon Theme::icon(const QString& name, const QString& color_name) const {
     if (name.isEmpty()) return {};
     const QColor disabled = color(QStringLiteral("text_disabled"));
-    return QIcon(new LineIconEngine(recolored(name, color(QStringLiteral("text")), color(QStringLiteral("accent"))),
+    return QIcon(new LineIconEngine(recolored(name, color(color_name), color(QStringLiteral("accent"))),
                                     recolored(name, disabled, disabled)));
 }
 

@@ -38,6 +38,8 @@ class Theme : public QObject {
     QColor color(const QString& name) const;
     /// resources/icons/NAME.svg in the colours of the theme, with a disabled variant.
     QIcon icon(const QString& name) const;
+    /// The same with its lines in one of the colours of palette.json.
+    QIcon icon(const QString& name, const QString& color_name) const;
     /// The program's own icon, which has colours of its own.
     static QIcon program_icon();
 

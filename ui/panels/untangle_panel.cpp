@@ -48,7 +48,10 @@ void UntanglePanel::make_fields() {
         {tr("What the nodes of the boundary may do."), tr("not one of them moves."),
          tr("they move along the boundary as it is; corners and feature edges are kept. Mends elements that nothing "
             "else can, and the shape changes a little."),
-         QString(), tr("what each named part of the boundary may do.")},
+         QString(),
+         tr("what each named part of the boundary may do, and what lies between regions inside the domain, which stays "
+            "otherwise."),
+         true},
         this);
     improves_ = new QCheckBox(tr("Improve the worst elements afterwards"));
     improves_->setObjectName(QStringLiteral("improves"));
@@ -179,6 +182,13 @@ void UntanglePanel::choose_unsigned_angles(bool is_literal) {
 
 void UntanglePanel::choose_guaranteed() {
     method_->setCurrentIndex(method_->findData(int(UntangleMethod::guaranteed)));
+}
+
+void UntanglePanel::show_options(const GuaranteedOptions& options) {
+    choose_guaranteed();
+    improves_->setChecked(options.improves);
+    target_->setValue(options.target);
+    boundary_->set_rules(options.boundary);
 }
 
 }  // namespace curvewright

@@ -22,6 +22,8 @@ class UntanglePanel : public OperationPanel {
     /// Chooses unsigned angles, to the letter or with several starts.
     void choose_unsigned_angles(bool is_literal);
     void choose_guaranteed();
+    /// Shows the guaranteed method with these options, as far as there are fields for them.
+    void show_options(const GuaranteedOptions& options);
 
   private:
     void refresh() override;

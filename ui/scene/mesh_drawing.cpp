@@ -28,13 +28,25 @@ LineRange part_of_lines(const Tessellation& tessellation, std::size_t part, std:
     return {std::min(count, part * each), std::min(count, (part + 1) * each)};
 }
 
-/// The lines that are (or are not) on the boundary of a flat mesh.
+/// Lines that are drawn by actors of their own.
+enum class LineKind {
+    inside,     ///< not on the boundary of a flat mesh
+    boundary,   ///< on it
+    interface,  ///< of those inside, and on a solid's surface, the edges of interfaces
+};
+
+bool is_of_kind(const Tessellation& tessellation, std::size_t line, LineKind kind) {
+    if (kind == LineKind::interface) return tessellation.line_is_interface()[line] != 0;
+    return (tessellation.line_is_boundary()[line] != 0) == (kind == LineKind::boundary);
+}
+
+/// The lines of a kind.
 Polylines select_lines(const Tessellation& tessellation, LineRange range, const std::vector<float>& spacing,
-                       bool on_boundary) {
+                       LineKind kind) {
     Polylines lines;
     const auto& offsets = tessellation.line_offsets();
     for (std::size_t line = range.begin; line < range.end; ++line) {
-        if ((tessellation.line_is_boundary()[line] != 0) != on_boundary) continue;
+        if (!is_of_kind(tessellation, line, kind)) continue;
         const auto begin = tessellation.edge_points().begin();
         lines.points.insert(lines.points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
         lines.offsets.push_back(static_cast<Index>(lines.points.size() / 3));
@@ -57,13 +69,13 @@ Polylines select_lines(const Tessellation& tessellation, const std::vector<std::
 }
 
 /// Their points alone, in the same order.
-std::vector<float> select_points(const Tessellation& tessellation, LineRange range, bool on_boundary) {
+std::vector<float> select_points(const Tessellation& tessellation, LineRange range, LineKind kind) {
     std::vector<float> points;
     const auto& offsets = tessellation.line_offsets();
     points.reserve(3 * static_cast<std::size_t>(offsets[range.end] - offsets[range.begin]));
     const auto begin = tessellation.edge_points().begin();
     for (std::size_t line = range.begin; line < range.end; ++line)
-        if ((tessellation.line_is_boundary()[line] != 0) == on_boundary)
+        if (is_of_kind(tessellation, line, kind))
             points.insert(points.end(), begin + 3 * offsets[line], begin + 3 * offsets[line + 1]);
     return points;
 }
@@ -94,7 +106,7 @@ std::vector<vtkActor*> MeshDrawing::actors() const {
     std::vector<vtkActor*> actors = surface_.actors();
     actors.push_back(section_.actors()[0]);
     for (const StrokeActor& edges : edges_) actors.push_back(edges.actor());
-    for (vtkActor* actor : {boundary_.actor(), section_.actors()[1]}) actors.push_back(actor);
+    for (vtkActor* actor : {boundary_.actor(), interfaces_.actor(), section_.actors()[1]}) actors.push_back(actor);
     for (vtkActor* actor : marks_.actors()) actors.push_back(actor);
     for (vtkActor* actor : nodes_.actors()) actors.push_back(actor);
     for (vtkActor* actor : {highlight_halo_.actor(), highlight_.actor()}) actors.push_back(actor);
@@ -141,11 +153,13 @@ void MeshDrawing::make(bool may_move) {
     typical_spacing_ = median(spacing) / frame_.size;
     for (std::size_t i = 0; i < edges_.size(); ++i) {
         const LineRange range = part_of_lines(*tessellation_, i, edges_.size());
-        edges_[i].set_lines(select_lines(*tessellation_, range, spacing, false), 1.0 / frame_.size);
+        edges_[i].set_lines(select_lines(*tessellation_, range, spacing, LineKind::inside), 1.0 / frame_.size);
         frame_.place(edges_[i].actor(), tessellation_->origin());
     }
-    boundary_.set_lines(select_lines(*tessellation_, all_lines(*tessellation_), spacing, true), 1.0 / frame_.size);
-    frame_.place(boundary_.actor(), tessellation_->origin());
+    const LineRange all = all_lines(*tessellation_);
+    boundary_.set_lines(select_lines(*tessellation_, all, spacing, LineKind::boundary), 1.0 / frame_.size);
+    interfaces_.set_lines(select_lines(*tessellation_, all, spacing, LineKind::interface), 1.0 / frame_.size);
+    for (const StrokeActor* stroke : {&boundary_, &interfaces_}) frame_.place(stroke->actor(), tessellation_->origin());
     nodes_.set_nodes(*mesh_, *tessellation_, frame_);
     make_cut();
 }
@@ -186,6 +200,7 @@ void MeshDrawing::draw_section() {
     const std::optional<CuttingPlane> plane = cutting_plane();
     surface_.set_cut(plane, tessellation_->origin(), frame_.size);
     for (StrokeActor& edges : edges_) edges.set_cut(plane, tessellation_->origin(), frame_.size);
+    interfaces_.set_cut(plane, tessellation_->origin(), frame_.size);
     nodes_.set_cut(plane, tessellation_->origin(), frame_.size);
     section_.draw(*mesh_, painter, frame_);
     section_.show_edges(options.show_edges);
@@ -237,9 +252,12 @@ void MeshDrawing::apply_styles() {
     for (StrokeActor& edges : edges_) edges.set_style(edge_style);
     section_.set_edge_style(edge_style);
     boundary_.set_style({.color = options.edge_color, .width = 1.6, .depth_bias = 5e-4});
+    // Dotted: told from the boundary, and from an edge that is no more than that.
+    interfaces_.set_style({.color = options.edge_color, .width = 2.6, .dash = 6.0, .depth_bias = 5e-4});
     show_edges(options.show_edges);
     section_.show_edges(options.show_edges);
     boundary_.actor()->SetVisibility(tessellation_ && is_flat());
+    interfaces_.actor()->SetVisibility(tessellation_ && !interfaces_.is_empty());
     highlight_halo_.set_style({.color = options.background, .width = 6.5, .cap = 1.0, .is_on_top = true});
     // Nearer than the halo of every other side of the element.
     highlight_.set_style({.color = options.accent, .width = 3.0, .cap = 1.0, .depth_bias = 0.011, .is_on_top = true});
@@ -276,8 +294,13 @@ bool MeshDrawing::move(const Coordinates& positions, std::shared_ptr<const Quali
     const bool is_quality = painter.coloring().source == Coloring::Source::scaled_jacobian;
     if ((has_moved && painter.follows_motion()) || (has_new_quality && is_quality)) paint();
     for (std::size_t i = 0; has_moved && !are_too_many && i < edges_.size(); ++i)
-        edges_[i].move_lines(select_points(*tessellation_, part_of_lines(*tessellation_, i, edges_.size()), false));
-    if (has_moved) boundary_.move_lines(select_points(*tessellation_, all_lines(*tessellation_), true));
+        edges_[i].move_lines(
+            select_points(*tessellation_, part_of_lines(*tessellation_, i, edges_.size()), LineKind::inside));
+    if (has_moved) {
+        const LineRange all = all_lines(*tessellation_);
+        boundary_.move_lines(select_points(*tessellation_, all, LineKind::boundary));
+        if (!interfaces_.is_empty()) interfaces_.move_lines(select_points(*tessellation_, all, LineKind::interface));
+    }
     if (has_moved && options.show_nodes) nodes_.set_nodes(*mesh_, *tessellation_, frame_);
     // The section follows in every frame if that is quick, else in a part of the time, and with every new report.
     const auto now = std::chrono::steady_clock::now();
@@ -321,7 +344,7 @@ void MeshDrawing::update(const ViewMetrics& view, double focal_distance) {
     surface_.update(view);
     section_.update(view);
     for (StrokeActor& edges : edges_) edges.update(view);
-    for (StrokeActor* stroke : {&boundary_, &highlight_halo_, &highlight_}) stroke->update(view);
+    for (StrokeActor* stroke : {&boundary_, &interfaces_, &highlight_halo_, &highlight_}) stroke->update(view);
     nodes_.update(view, typical_spacing_, focal_distance);
     marks_.update(view);
 }

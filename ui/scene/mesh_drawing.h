@@ -102,6 +102,7 @@ class MeshDrawing {
     /// Several, so that none takes long to hand to the graphics or to draw.
     std::array<StrokeActor, 6> edges_;
     StrokeActor boundary_;
+    StrokeActor interfaces_;  ///< over the edges that they are
     TangledMarks marks_;
     NodeActors nodes_;
     StrokeActor highlight_halo_, highlight_;

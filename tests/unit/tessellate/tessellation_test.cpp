@@ -15,6 +15,7 @@
 #include "core/mesh/elevate.h"
 
 #include "tests/support/mesh_factory.h"
+#include "tests/support/region_meshes.h"
 
 namespace curvewright {
 namespace {
@@ -487,6 +488,31 @@ TEST(Fields, MissingValuesSpreadOverTheirElementOnly) {
     }
     EXPECT_THROW(drawn.evaluate(values, 2), InvalidInput);
     EXPECT_THROW(drawn.evaluate({1.0}, 1), InvalidInput);
+}
+
+TEST(Tessellation, TellsWhichLinesAreEdgesOfInterfaces) {
+    const auto flagged = [](const CurvedMesh& mesh, bool lies_in_the_middle) {
+        const Tessellation tessellation(mesh);
+        std::size_t count = 0;
+        for (std::size_t line = 0; line < tessellation.line_elements().size(); ++line) {
+            // All of its points, and none of those of the others.
+            bool is_in_the_middle = true;
+            for (Index point = tessellation.line_offsets()[line]; point < tessellation.line_offsets()[line + 1];
+                 ++point)
+                is_in_the_middle &=
+                    std::abs(tessellation.edge_points()[3 * point] + tessellation.origin()[0] - 0.5) < 1e-6;
+            const bool is_interface = tessellation.line_is_interface()[line] != 0;
+            EXPECT_EQ(is_interface, is_in_the_middle && lies_in_the_middle);
+            count += is_interface ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_EQ(flagged(testing::square_mesh(4, 3), false), 0U);
+    EXPECT_EQ(flagged(testing::with_regions(testing::square_mesh(4, 3), testing::InterfaceCells::none), true), 4U);
+    EXPECT_EQ(flagged(testing::with_regions(testing::quad_mesh(4, 2), testing::InterfaceCells::named), true), 4U);
+    // Of a solid, where the interface comes to the surface.
+    EXPECT_EQ(flagged(testing::with_regions(testing::cube_mesh(2, 2), testing::InterfaceCells::none), true), 8U);
+    EXPECT_EQ(flagged(testing::with_regions(testing::hex_mesh(2, 3), testing::InterfaceCells::named), true), 8U);
 }
 
 }  // namespace
