@@ -35,6 +35,10 @@ Json quality_json(const ReportQuality& quality) {
     const ReportHistogram& histogram = quality.histogram;
     return {{"scaled_jacobian", summary_json(quality.scaled_jacobian)},
             {"shape", {{"min", quality.shape.min}, {"mean", quality.shape.mean}}},
+            {"globally_valid", to_string(quality.globally_valid)},
+            {"globally_valid_reason", quality.global_reason},
+            {"crossing_elements", quality.crossings},
+            {"crossing_facet_pairs", quality.crossing_count},
             {"histogram",
              {{"lower", 0.0},
               {"upper", 1.0},
