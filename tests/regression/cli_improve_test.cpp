@@ -155,7 +155,8 @@ TEST_F(Improving, QualityFailsBelowTheLeastThatIsAskedFor) {
         << result.output;
     EXPECT_EQ(cli({"quality", mesh, "--min", std::to_string(report.summary.min - 1e-4)}).status, 0);
     EXPECT_EQ(cli({"quality", mesh}).status, 0);
-    EXPECT_EQ(cli({"quality", mesh, "--min", "1.5"}).status, 2);
+    for (const char* wrong : {"1.5", "nan", "much", ""})
+        EXPECT_EQ(cli({"quality", mesh, "--min", wrong}).status, 2) << wrong;
 }
 
 // ------------------------------------------------------------------------------------------------------------- Ctrl+C
