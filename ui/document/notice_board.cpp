@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
+#include "ui/document/number_format.h"
+
 namespace curvewright {
-namespace {
-
-/// Elements of either orientation in the file are numbered so; later on they are tangled.
-bool is_mixed(const MeshState& state) {
-    return state.quality && state.quality->orientation == Orientation::mixed;
-}
-
-}  // namespace
-
 std::vector<Notice> standing_notices(const MeshDocument& document) {
     std::vector<Notice> notices;
     const MeshState& state = document.state();
@@ -30,13 +23,27 @@ std::vector<Notice> standing_notices(const MeshDocument& document) {
              {{NoticeCommand::flip}},
              NoticeLife::state,
              QStringLiteral("orientation")});
-    else if (orientation == Orientation::mixed && is_mixed(document.original()))
-        notices.push_back({NoticeSeverity::warning,
-                           NoticeBoard::tr("Some elements are numbered clockwise and others counter-clockwise; those "
-                                           "of the minority count as tangled."),
+    else if (orientation == Orientation::mixed)
+        notices.push_back({NoticeSeverity::information,
+                           NoticeBoard::tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; "
+                                           "each is judged by its own numbering."),
                            {},
                            NoticeLife::state,
                            QStringLiteral("orientation")});
+    if (const Index count = state.quality->summary.reversed; count > 0) {
+        std::vector<Index> reversed;
+        for (std::size_t i = 0; i < state.quality->elements.size(); ++i)
+            if (state.quality->elements[i].is_reversed) reversed.push_back(static_cast<Index>(i));
+        const QString text =
+            count == 1 ? NoticeBoard::tr("1 element is numbered against its neighbours.")
+                       : NoticeBoard::tr("%1 elements are numbered against their neighbours.").arg(format_count(count));
+        notices.push_back(
+            {NoticeSeverity::warning,
+             text + QLatin1Char(' ') + NoticeBoard::tr("That is a matter of numbering, not of tangling."),
+             {selecting_elements(std::move(reversed))},
+             NoticeLife::state,
+             QStringLiteral("reversed")});
+    }
     return notices;
 }
 

@@ -5,12 +5,9 @@
 #include "core/base/sha256.h"
 #include "core/deform/deformation.h"
 #include "core/io/deformation_file.h"
-<<<<<<< HEAD
-#include "ui/document/number_format.h"
-=======
 #include "core/io/matched_mesh.h"
 #include "core/mesh/conformity.h"
->>>>>>> integration
+#include "ui/document/number_format.h"
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/operation_steps.h"
 #include "ui/jobs/window_provenance.h"

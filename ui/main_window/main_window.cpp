@@ -242,26 +242,7 @@ void MainWindow::show_state() {
         verdict_->setText(tr("quality unknown"));
         set_tone(verdict_, "warning");
     } else if (state.quality) {
-<<<<<<< HEAD
         show_verdict(state.quality->summary);
-=======
-        const QualitySummary& summary = state.quality->summary;
-        show_verdict(summary);
-        if (state.quality->orientation == Orientation::negative)
-            banner_->show_warning(
-                tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "
-                   "numbering, not of tangling."),
-                tr("Flip"));
-        else if (summary.reversed > 0)
-            banner_->show_warning(tr("%1 elements are numbered against their neighbours (reversed). That is a matter "
-                                     "of numbering, not of tangling.")
-                                      .arg(format_count(summary.reversed)),
-                                  {});
-        else if (state.quality->orientation == Orientation::mixed)
-            banner_->show_warning(tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; each "
-                                     "is judged by its own numbering."),
-                                  {});
->>>>>>> integration
     }
     if (Tool* tool = current_tool()) tool->refresh();
     update_commands();
