@@ -5,6 +5,15 @@
 #include "ui/document/number_format.h"
 
 namespace curvewright {
+namespace {
+
+/// Parts of either orientation in the file are numbered so; later on they are tangled.
+bool is_mixed(const MeshState& state) {
+    return state.quality && state.quality->orientation == Orientation::mixed;
+}
+
+}  // namespace
+
 std::vector<Notice> standing_notices(const MeshDocument& document) {
     std::vector<Notice> notices;
     const MeshState& state = document.state();
@@ -23,13 +32,14 @@ std::vector<Notice> standing_notices(const MeshDocument& document) {
              {{NoticeCommand::flip}},
              NoticeLife::state,
              QStringLiteral("orientation")});
-    else if (orientation == Orientation::mixed)
-        notices.push_back({NoticeSeverity::information,
-                           NoticeBoard::tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; "
-                                           "each is judged by its own numbering."),
-                           {},
-                           NoticeLife::state,
-                           QStringLiteral("orientation")});
+    else if (orientation == Orientation::mixed && is_mixed(document.original()))
+        notices.push_back(
+            {NoticeSeverity::information,
+             NoticeBoard::tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; "
+                             "each is judged by its own numbering."),
+             {{NoticeCommand::renumber}},
+             NoticeLife::state,
+             QStringLiteral("orientation")});
     if (const Index count = state.quality->summary.reversed; count > 0) {
         std::vector<Index> reversed;
         for (std::size_t i = 0; i < state.quality->elements.size(); ++i)
@@ -37,12 +47,11 @@ std::vector<Notice> standing_notices(const MeshDocument& document) {
         const QString text =
             count == 1 ? NoticeBoard::tr("1 element is numbered against its neighbours.")
                        : NoticeBoard::tr("%1 elements are numbered against their neighbours.").arg(format_count(count));
-        notices.push_back(
-            {NoticeSeverity::warning,
-             text + QLatin1Char(' ') + NoticeBoard::tr("That is a matter of numbering, not of tangling."),
-             {selecting_elements(std::move(reversed))},
-             NoticeLife::state,
-             QStringLiteral("reversed")});
+        notices.push_back({NoticeSeverity::warning,
+                           text + QLatin1Char(' ') + NoticeBoard::tr("That is a matter of numbering, not of tangling."),
+                           {{NoticeCommand::renumber}, selecting_elements(std::move(reversed))},
+                           NoticeLife::state,
+                           QStringLiteral("reversed")});
     }
     return notices;
 }
