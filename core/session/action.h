@@ -39,6 +39,9 @@ struct ImproveAction {
 };
 /// All elements are numbered the other way round.
 struct FlipAction {};
+/// Elements that run against their neighbours, and parts that are numbered the other way round, are renumbered, see
+/// reorient().
+struct ReorientAction {};
 /// Nodes follow a hand, the interior follows them, by the weights of the mesh as it was opened (after FlipAction: as it
 /// is).
 struct DragAction {
@@ -66,8 +69,8 @@ struct HistoryAction {
 };
 
 /// One thing that was done.
-using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, ImproveAction, FlipAction, DragAction,
-                            PlaceAction, HistoryAction>;
+using Action = std::variant<OpenAction, DeformAction, WarpAction, UntangleAction, ImproveAction, FlipAction,
+                            ReorientAction, DragAction, PlaceAction, HistoryAction>;
 
 /// The nodes that differ, as an action.
 PlaceAction place_action(const MeshTopology& topology, const Coordinates& before, const Coordinates& after);

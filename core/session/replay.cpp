@@ -123,6 +123,7 @@ CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMes
                        return mesh.with_coordinates(improve(mesh, its.options, nullptr, context).coordinates);
                    },
                    [&](const FlipAction&) { return flip_orientation(mesh); },
+                   [&](const ReorientAction&) { return reorient(mesh).mesh; },
                    [&](const DragAction& its) { return mesh.with_coordinates(dragged(mesh, opened, its, context)); },
                    [&](const PlaceAction& its) { return mesh.with_coordinates(placed(mesh, its)); },
                    [&](const auto&) -> CurvedMesh {

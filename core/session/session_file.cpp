@@ -124,6 +124,9 @@ Json to_json(const Action& action) {
                    [](const FlipAction&) -> Json {
                        return {{"action", "flip"}};
                    },
+                   [](const ReorientAction&) -> Json {
+                       return {{"action", "reorient"}};
+                   },
                    [](const DragAction& its) -> Json {
                        const Eigen::Matrix3d& m = its.motion.linear;
                        Json json = {{"action", "drag"}, {"nodes", tags_json(its.nodes)}};
@@ -167,11 +170,12 @@ class ActionReader {
         if (action == "untangle") return UntangleAction{read_untangle()};
         if (action == "improve") return ImproveAction{read_improve()};
         if (action == "flip") return FlipAction{};
+        if (action == "reorient") return ReorientAction{};
         if (action == "drag") return read_drag();
         if (action == "place") return read_place();
         if (action == "history") return HistoryAction{integer("step", 0, 1 << 30)};
         fail(fmt::format(
-            "unknown action \"{}\"; one of open, deform, warp, untangle, improve, flip, drag, place, history "
+            "unknown action \"{}\"; one of open, deform, warp, untangle, improve, flip, reorient, drag, place, history "
             "was expected.",
             action));
     }

@@ -1,9 +1,12 @@
 /// What is told to people: how long notices hold, what their buttons do, what the log keeps.
 
+#include <cmath>
 #include <fstream>
+#include <numbers>
 
 #include <QClipboard>
 #include <QComboBox>
+#include <QDoubleSpinBox>
 #include <QLabel>
 #include <QMouseEvent>
 #include <QPushButton>
@@ -14,12 +17,15 @@
 #include <QTreeWidget>
 
 #include "core/io/mesh_io.h"
+#include "core/mesh/renumbering.h"
 #include "core/untangle/guaranteed.h"
+#include "core/untangle/improve.h"
 #include "tests/gui/drag_under_test.h"
 #include "tests/support/mesh_factory.h"
 #include "tests/support/region_meshes.h"
 #include "ui/document/message_log.h"
 #include "ui/document/notice_board.h"
+#include "ui/jobs/global_check.h"
 #include "ui/panels/banner.h"
 
 using namespace curvewright;
@@ -250,8 +256,8 @@ class NoticesTest : public QObject {
         QVERIFY2(banner->text().contains(QStringLiteral("Section $Unheard was skipped.")), qPrintable(banner->text()));
         QVERIFY(log_of(test.window->log()).contains(QStringLiteral("noted.msh as opened\tSection $Unheard")));
         // It outlives steps, but not the mesh.
-        QVERIFY(test.window->jobs().untangle(GuaranteedOptions()));
-        QVERIFY(test.wait_for_job());
+        QVERIFY(test.window->jobs().flip() && test.wait_for_job());
+        QCOMPARE(test.window->document().history()->count(), 1);
         QVERIFY(banner->text().contains(QStringLiteral("$Unheard")));
         test.unsaved_answer = UnsavedAnswer::discard;
         test.open(test.inputs.path(QStringLiteral("cube.msh")));
@@ -359,6 +365,143 @@ class NoticesTest : public QObject {
                 QCOMPARE(test.window->edit().nodes(), topology.interface_nodes());
                 QCOMPARE(test.find<QTreeWidget>("boundary_groups")->findItems(name, Qt::MatchExactly).size(), 1);
             }
+    }
+
+    void a_valid_mesh_is_not_untangled_but_can_be_improved() {
+        WindowUnderTest test;
+        const CurvedMesh mesh = bulged_square_mesh(3, 3, 0.04);
+        const QualitySummary before = assess_quality(mesh).summary;
+        QVERIFY(before.invalid + before.undecided == 0 && before.min < 0.85);
+        const QString path = test.inputs.path(QStringLiteral("bulged.msh"));
+        write_mesh(path.toStdString(), mesh);
+        test.open(path);
+        test.window->action(CommandId::untangle)->trigger();
+        QVERIFY(test.wait_for_job());
+        auto* banner = test.find<Banner>("banner");
+        QVERIFY2(banner->text().contains(QStringLiteral("valid already")), qPrintable(banner->text()));
+        QCOMPARE(test.window->document().history()->count(), 0);
+        QVERIFY(!test.window->document().is_dirty());
+        QCOMPARE(test.find<QPushButton>("banner_action")->text(), QStringLiteral("Improve it"));
+        test.click("banner_action");
+        QVERIFY(test.wait_for_job());
+        const MeshState& state = test.window->document().state();
+        QCOMPARE(state.mesh->coordinates(), improve(mesh, ImproveOptions()).coordinates);
+        QVERIFY(state.quality->summary.min > before.min);
+        QCOMPARE(test.window->document().history()->undoText(), QStringLiteral("Improve"));
+        QCOMPARE(test.window->document().session().size(), std::size_t(2));
+
+        // The panel's options reach the core, too.
+        test.window->action(CommandId::undo)->trigger();
+        test.find<QDoubleSpinBox>("improve_target")->setValue(0.95);
+        test.find<QDoubleSpinBox>("improve_farthest")->setValue(0.5);
+        test.find<QPushButton>("improve_button")->click();
+        QVERIFY(test.wait_for_job());
+        ImproveOptions options;
+        options.target = 0.95;
+        options.max_move = 0.005;
+        QCOMPARE(state.mesh->coordinates(), improve(mesh, options).coordinates);
+        const Coordinates moves = state.mesh->coordinates() - mesh.coordinates();
+        QVERIFY(moves.rowwise().norm().maxCoeff() <= 0.005 * std::sqrt(2.0) * (1.0 + 1e-12));
+        QCOMPARE(banner->text().contains(QStringLiteral("target of 0.95 is not reached")),
+                 state.quality->summary.min < 0.95);
+    }
+
+    void reversed_elements_can_be_selected_and_renumbered() {
+        WindowUnderTest test;
+        for (const bool is_solid : {false, true}) {
+            const CurvedMesh plain = is_solid ? cube_mesh(2, 2) : square_mesh(4, 2);
+            const QString path = test.inputs.path(QStringLiteral("reversed.msh"));
+            write_mesh(path.toStdString(),
+                       renumbered(plain, [](Index element) { return element == 3 || element == 10; }));
+            test.unsaved_answer = UnsavedAnswer::discard;
+            test.open(path);
+            auto* banner = test.find<Banner>("banner");
+            QVERIFY2(banner->text().startsWith(QStringLiteral("2 elements are numbered against their neighbours.")),
+                     qPrintable(banner->text()));
+            QVERIFY(test.text("mesh_validity").contains(QStringLiteral("2 reversed")));
+            QCOMPARE(test.window->document().state().quality->summary.invalid, 0);
+            QCOMPARE(test.find<QPushButton>("banner_action_2")->text(), QStringLiteral("Select them"));
+            test.click("banner_action_2");
+            QCOMPARE(test.window->edit().elements(), (IndexSet{3, 10}));
+            QCOMPARE(test.find<QPushButton>("banner_action")->text(), QStringLiteral("Renumber them"));
+            test.click("banner_action");
+            QVERIFY(test.wait_for_job());
+            QVERIFY(!banner->isVisible());
+            const MeshState& state = test.window->document().state();
+            QCOMPARE(state.mesh->coordinates(), plain.coordinates());
+            QCOMPARE(state.mesh->topology().reversed_count(), 0);
+            QCOMPARE(state.quality->summary.valid, plain.topology().element_count());
+            for (Index element = 0; element < plain.topology().element_count(); ++element)
+                QCOMPARE(state.mesh->topology().element_tag(element).value,
+                         plain.topology().element_tag(element).value);
+            test.window->action(CommandId::undo)->trigger();
+            QVERIFY(banner->isVisible());
+            QCOMPARE(test.window->document().state().mesh->topology().reversed_count(), 2);
+            test.window->action(CommandId::redo)->trigger();
+        }
+    }
+
+    void overlaps_are_found_in_the_background() {
+        WindowUnderTest test;
+        // A strip that is bent more than once around: all of its elements are valid, its end lies on its beginning.
+        const CurvedMesh strip = quad_mesh(12, 2);
+        Coordinates x = strip.coordinates();
+        for (Eigen::Index i = 0; i < x.rows(); ++i) {
+            const double angle = 2.2 * std::numbers::pi * (1.0 - x(i, 0)), radius = 1.0 + x(i, 1) + 0.3 * x(i, 0);
+            x.row(i) << radius * std::cos(angle), radius * std::sin(angle), 0.0;
+        }
+        const QString path = test.inputs.path(QStringLiteral("strip.msh"));
+        write_mesh(path.toStdString(), strip.with_coordinates(x));
+        test.open(path);
+        QCOMPARE(test.window->document().state().quality->summary.invalid, 0);
+        auto* banner = test.find<Banner>("banner");
+        QTRY_VERIFY_WITH_TIMEOUT(banner->isVisible(), 20000);
+        QVERIFY2(banner->text().startsWith(QStringLiteral("The boundary crosses itself")), qPrintable(banner->text()));
+        QVERIFY(test.text("mesh_global").contains(QStringLiteral("crosses itself")));
+        QVERIFY(test.text("verdict").contains(QStringLiteral("crosses itself")));
+        const auto report = test.window->global_check().report();
+        QVERIFY(report && report->answer == GlobalValidity::no);
+        test.click("banner_action");
+        QCOMPARE(test.window->edit().elements(), elements_of(report->boundary.crossings));
+        QVERIFY(!test.window->edit().elements().empty());
+        // Dismissed, it stays so when the state comes back.
+        test.click("banner_close");
+        QVERIFY(test.window->jobs().flip() && test.wait_for_job());
+        test.window->action(CommandId::undo)->trigger();
+        QCOMPARE(test.window->global_check().report(), report);
+        QVERIFY(test.text("mesh_global").contains(QStringLiteral("crosses itself")));
+
+        test.unsaved_answer = UnsavedAnswer::discard;
+        for (const char* good : {"square.msh", "cube.msh"}) {
+            test.open(test.inputs.path(QLatin1String(good)));
+            QTRY_VERIFY_WITH_TIMEOUT(test.window->global_check().report(), 20000);
+            QVERIFY(test.text("mesh_global").contains(QStringLiteral("valid as a mesh")));
+            QVERIFY(!banner->isVisible());
+            QCOMPARE(test.text("verdict"), QStringLiteral("✓ all proved valid"));
+        }
+    }
+
+    void what_global_validity_says_is_about_what_decides() {
+        GlobalValidityReport report;
+        report.answer = report.elements = report.conformity = report.boundary.answer = GlobalValidity::yes;
+        QVERIFY(!global_notice(report));
+        report.answer = report.elements = GlobalValidity::no;
+        QVERIFY(!global_notice(report));  // told as tangled
+        report.conflict_count = 1;
+        report.conflicts = {{{4, 0}, {2, 1}}};
+        auto notice = global_notice(report);
+        QVERIFY(notice && notice->text.contains(QStringLiteral("do not match (1 pair of facets)")));
+        QCOMPARE(notice->actions[0].items, (std::vector<Index>{2, 4}));
+        report.boundary.crossing_count = 1200;
+        report.boundary.crossings = {{{7, 0}, {7, 0}}};
+        notice = global_notice(report);
+        QVERIFY(notice && notice->text.contains(QStringLiteral("1,200 pairs of facets")));
+        QCOMPARE(notice->actions[0].items, (std::vector<Index>{7}));
+        report = {};
+        report.elements = GlobalValidity::yes;
+        QVERIFY(!global_notice(report));
+        report.boundary.unsettled_count = 1;
+        QVERIFY(global_notice(report)->severity == NoticeSeverity::information);
     }
 
     void a_job_that_moves_nothing_is_no_step() {

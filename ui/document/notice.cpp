@@ -34,8 +34,12 @@ QString action_text(const NoticeAction& action) {
             return action.undoes ? tr("Undo and let the boundary slide") : tr("Let the boundary slide");
         case NoticeCommand::slide_interface:
             return action.undoes ? tr("Undo and let the interface slide") : tr("Let the interface slide");
+        case NoticeCommand::improve:
+            return tr("Improve it");
         case NoticeCommand::flip:
             return tr("Flip");
+        case NoticeCommand::renumber:
+            return tr("Renumber them");
         case NoticeCommand::open_file:
             return tr("Open");
     }
@@ -52,6 +56,10 @@ QString action_tip(const NoticeAction& action) {
             return tr("Untangles again with the boundary sliding along itself; corners and feature edges stay.");
         case NoticeCommand::slide_interface:
             return tr("Untangles again with the interface inside the domain sliding along itself; its shape stays.");
+        case NoticeCommand::improve:
+            return tr("Raises the quality of the worst elements, as a step that can be undone.");
+        case NoticeCommand::renumber:
+            return tr("Numbers them as their neighbours are, as a step that can be undone; nothing moves.");
         case NoticeCommand::flip:
             return tr("Numbers every element the other way round, as a step that can be undone.");
         case NoticeCommand::open_file:

@@ -9,6 +9,7 @@
 
 #include "core/base/ids.h"
 #include "core/untangle/guaranteed.h"
+#include "core/untangle/improve.h"
 
 namespace curvewright {
 
@@ -35,7 +36,9 @@ enum class NoticeCommand {
     select_nodes,
     slide_boundary,   ///< untangle with NoticeAction::options, which let it slide
     slide_interface,  ///< the same for an interface inside the domain
+    improve,          ///< raise the quality with NoticeAction::improve
     flip,
+    renumber,  ///< the elements that run against their neighbours
     open_file,
 };
 
@@ -45,6 +48,7 @@ struct NoticeAction {
     std::vector<Index> items = {};  ///< the elements or nodes to select
     QString file = {};              ///< to be opened
     std::optional<GuaranteedOptions> options = {};
+    std::optional<ImproveOptions> improve = {};
     bool undoes = false;  ///< the step that led to the present state is undone first
 };
 /// What the button says: "Select them", "Undo and let the boundary slide".

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 
+#include "ui/document/number_format.h"
+
 namespace curvewright {
 namespace {
 
-/// Elements of either orientation in the file are numbered so; later on they are tangled.
+/// Parts of either orientation in the file are numbered so; later on they are tangled.
 bool is_mixed(const MeshState& state) {
     return state.quality && state.quality->orientation == Orientation::mixed;
 }
@@ -31,12 +33,26 @@ std::vector<Notice> standing_notices(const MeshDocument& document) {
              NoticeLife::state,
              QStringLiteral("orientation")});
     else if (orientation == Orientation::mixed && is_mixed(document.original()))
+        notices.push_back(
+            {NoticeSeverity::information,
+             NoticeBoard::tr("Some parts of the mesh are numbered clockwise and others counter-clockwise; "
+                             "each is judged by its own numbering."),
+             {{NoticeCommand::renumber}},
+             NoticeLife::state,
+             QStringLiteral("orientation")});
+    if (const Index count = state.quality->summary.reversed; count > 0) {
+        std::vector<Index> reversed;
+        for (std::size_t i = 0; i < state.quality->elements.size(); ++i)
+            if (state.quality->elements[i].is_reversed) reversed.push_back(static_cast<Index>(i));
+        const QString text =
+            count == 1 ? NoticeBoard::tr("1 element is numbered against its neighbours.")
+                       : NoticeBoard::tr("%1 elements are numbered against their neighbours.").arg(format_count(count));
         notices.push_back({NoticeSeverity::warning,
-                           NoticeBoard::tr("Some elements are numbered clockwise and others counter-clockwise; those "
-                                           "of the minority count as tangled."),
-                           {},
+                           text + QLatin1Char(' ') + NoticeBoard::tr("That is a matter of numbering, not of tangling."),
+                           {{NoticeCommand::renumber}, selecting_elements(std::move(reversed))},
                            NoticeLife::state,
-                           QStringLiteral("orientation")});
+                           QStringLiteral("reversed")});
+    }
     return notices;
 }
 

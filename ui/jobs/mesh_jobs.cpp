@@ -8,6 +8,7 @@
 #include "core/io/matched_mesh.h"
 #include "core/mesh/conformity.h"
 #include "ui/document/number_format.h"
+#include "ui/jobs/improving.h"
 #include "ui/jobs/mesh_state.h"
 #include "ui/jobs/operation_steps.h"
 #include "ui/jobs/window_provenance.h"
@@ -28,6 +29,22 @@ std::optional<Notice> warning_of_tangled(const QualityReport& quality, const QSt
             : MeshJobs::tr("%1 elements are tangled.").arg(format_count(static_cast<long long>(tangled.size())));
     if (!advice.isEmpty()) text += QLatin1Char(' ') + advice;
     return Notice{NoticeSeverity::warning, text, {selecting_elements(std::move(tangled))}};
+}
+
+/// None if it was reached, or if elements are not valid, which is told then.
+std::optional<Notice> note_of_missed_target(const QualityReport& quality, double target) {
+    const QualitySummary& summary = quality.summary;
+    if (summary.invalid + summary.undecided > 0 || summary.min >= target) return std::nullopt;
+    std::vector<Index> below;
+    for (std::size_t i = 0; i < quality.elements.size(); ++i)
+        if (quality.elements[i].scaled_jacobian < target) below.push_back(static_cast<Index>(i));
+    const QString text =
+        MeshJobs::tr("The least scaled Jacobian is %1: the target of %2 is not reached; %3 below it.")
+            .arg(format_number(summary.min), short_number(target),
+                 below.size() == 1
+                     ? MeshJobs::tr("1 element is")
+                     : MeshJobs::tr("%1 elements are").arg(format_count(static_cast<long long>(below.size()))));
+    return Notice{NoticeSeverity::information, text, {selecting_elements(std::move(below))}};
 }
 
 }  // namespace
@@ -132,6 +149,8 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
             text += QLatin1Char(' ') + result.advice;
+        if (result.target && state.quality)
+            if (auto missed = note_of_missed_target(*state.quality, *result.target)) result.notices.push_back(*missed);
         if (result.warns_of_tangled && state.quality)
             if (auto warning = warning_of_tangled(*state.quality, result.advice)) result.notices.push_back(*warning);
         const QString details = full_details(result);
@@ -184,8 +203,26 @@ bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOpt
                     });
 }
 
+bool MeshJobs::is_untangled(const UntangleOptions& options) {
+    const auto& quality = document_.state().quality;
+    if (runner_.is_running() || !quality || quality->summary.invalid + quality->summary.undecided > 0) return false;
+    NoticeAction improve{NoticeCommand::improve};
+    improve.improve.emplace();
+    if (const auto* guaranteed = std::get_if<GuaranteedOptions>(&options)) {
+        improve.improve->target = guaranteed->target;
+        improve.improve->boundary = guaranteed->boundary;
+    }
+    emit noticed({NoticeSeverity::information,
+                  tr("All elements are valid already, and untangling leaves such a mesh as it is."),
+                  {improve},
+                  NoticeLife::state,
+                  QStringLiteral("nothing_moved")});
+    return true;
+}
+
 bool MeshJobs::untangle(const UntangleOptions& options) {
     if (!why_not_untangle(method_of(options)).isEmpty()) return false;
+    if (is_untangled(options)) return true;
     const bool can_keep = method_of(options) == UntangleMethod::guaranteed;
     return run_step(
         tr("Untangling"), false,
@@ -193,6 +230,36 @@ bool MeshJobs::untangle(const UntangleOptions& options) {
             return curvewright::untangle(mesh, options, nullptr, context);
         },
         can_keep);
+}
+
+bool MeshJobs::improve(const ImproveOptions& options) {
+    if (!why_not_improve().isEmpty()) return false;
+    return run_step(
+        tr("Improving"), false,
+        [options](const CurvedMesh& mesh, const TaskContext& context) {
+            return improve_step(mesh, options, nullptr, context);
+        },
+        true);
+}
+
+bool MeshJobs::renumber() {
+    if (!document_.has_mesh()) return false;
+    const MeshState start = document_.state();
+    return runner_.start(tr("Renumbering"), [this, start](const TaskContext& context) {
+        const Reorientation reorientation = reorient(*start.mesh);
+        if (reorientation.renumbered == 0) {
+            Step step;
+            step.note = tr("All elements are numbered alike.");
+            return nothing_moved(std::move(step), {});
+        }
+        const Step step = reorient_step(reorientation);
+        MeshState state = make_state(reorientation.mesh, context);
+        state.applied_deformations = start.applied_deformations;
+        return JobRunner::Finish([this, state, step] {
+            document_.apply(step.name, state, *step.action, step.details);
+            emit note(step.details);
+        });
+    });
 }
 
 bool MeshJobs::flip() {
@@ -258,6 +325,15 @@ QString MeshJobs::why_not_deform() const {
 
 QString MeshJobs::why_not_warp() const {
     return why_not_deform();
+}
+
+QString MeshJobs::why_not_improve() const {
+    if (!document_.has_mesh()) return tr("Open a mesh first.");
+    const MeshState& state = document_.state();
+    if (!state.quality) return state.quality_note;
+    if (state.quality->summary.invalid + state.quality->summary.undecided > 0)
+        return tr("Only a mesh of valid elements can be improved: untangle it first.");
+    return {};
 }
 
 QString MeshJobs::why_not_untangle(UntangleMethod method) const {

@@ -74,8 +74,12 @@ class MeshJobs : public QObject {
     /// Reads what a TraceWriter wrote of an untangling of the open mesh. recorded() follows.
     bool open_trace(const QString& path);
     bool save_trace(const std::shared_ptr<const Recording>& recording, const QString& path);
+    /// Raises the quality of a valid mesh.
+    bool improve(const ImproveOptions& options);
     /// Numbers every element the other way round.
     bool flip();
+    /// Renumbers the elements that run against their neighbours, see reorient().
+    bool renumber();
     /// Writes the present state; VTU and VTK with quality and the displacement from the mesh as opened. mark_saved: the
     /// file becomes the document's own.
     bool write(const QString& path, std::optional<MeshFormat> format, bool mark_saved);
@@ -90,6 +94,7 @@ class MeshJobs : public QObject {
     QString why_not_deform() const;
     QString why_not_warp() const;
     QString why_not_untangle(UntangleMethod method) const;
+    QString why_not_improve() const;
     /// Whether a step of the history goes through steps of its own: an untangling, or a warp in increments.
     bool can_record(int step) const;
 
@@ -111,6 +116,8 @@ class MeshJobs : public QObject {
 
     /// What is told instead of a step. Of a worker thread; what it returns is of the window's.
     JobRunner::Finish nothing_moved(Step result, std::function<void(bool is_step)> then);
+    /// Whether there is nothing to be untangled in the present state; says so if there is not.
+    bool is_untangled(const UntangleOptions& options);
 
     MeshDocument& document_;
     JobRunner runner_;

@@ -10,6 +10,7 @@
 #include "core/session/replay.h"
 #include "core/timeline/recorder.h"
 #include "ui/document/number_format.h"
+#include "ui/jobs/improving.h"
 #include "ui/jobs/untangling.h"
 
 namespace curvewright {
@@ -211,6 +212,29 @@ Step flip_step(const CurvedMesh& mesh) {
     return step;
 }
 
+Step reorient_step(const Reorientation& reorientation) {
+    Step step;
+    step.coordinates = reorientation.mesh.coordinates();
+    step.name = tr("Renumber elements");
+    step.details =
+        reorientation.reversed > 0
+            ? tr("%1 elements ran against their neighbours; %2 are numbered the other way round now.")
+                  .arg(format_count(reorientation.reversed), format_count(reorientation.renumbered))
+            : tr("%1 elements are numbered the other way round now.").arg(format_count(reorientation.renumbered));
+    step.action = ReorientAction{};
+    return step;
+}
+
+CurvedMesh numbered_by(const Action& action, const CurvedMesh& mesh) {
+    if (std::holds_alternative<FlipAction>(action)) return flip_orientation(mesh);
+    if (std::holds_alternative<ReorientAction>(action)) return reorient(mesh).mesh;
+    return mesh;
+}
+
+bool is_renumbering(const Action& action) {
+    return std::holds_alternative<FlipAction>(action) || std::holds_alternative<ReorientAction>(action);
+}
+
 Step again(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opened,
            const std::function<LoadedDeformation(const std::string&)>& load, const TaskContext& context) {
     const auto computed = [&](QString name) {
@@ -230,7 +254,13 @@ Step again(const Action& action, const CurvedMesh& mesh, const CurvedMesh& opene
                        context.check();
                        return step;
                    },
+                   [&](const ImproveAction& its) {
+                       Step step = improve_step(mesh, its.options, nullptr, context);
+                       context.check();
+                       return step;
+                   },
                    [&](const FlipAction&) { return flip_step(mesh); },
+                   [&](const ReorientAction&) { return reorient_step(reorient(mesh)); },
                    [&](const DragAction& its) { return computed(drag_name(its)); },
                    [&](const PlaceAction& its) { return computed(tr("Place %1").arg(nodes_text(its.rows.size()))); },
                    [&](const auto&) -> Step {

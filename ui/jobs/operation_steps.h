@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "core/base/task.h"
+#include "core/quality/quality.h"
 #include "core/warp/incremental.h"
 #include "ui/document/mesh_document.h"
 #include "ui/jobs/step.h"
@@ -25,6 +26,12 @@ Step warp_step(const CurvedMesh& mesh, const LoadedDeformation& loaded, const Wa
                Recorder* recorder = nullptr);
 /// Its coordinates are the mesh's: what changes is the numbering (flip_orientation).
 Step flip_step(const CurvedMesh& mesh);
+/// Likewise, of a mesh that reorient() has renumbered.
+Step reorient_step(const Reorientation& reorientation);
+/// The mesh as an action numbers it: renumbered by FlipAction and ReorientAction, else as it is.
+CurvedMesh numbered_by(const Action& action, const CurvedMesh& mesh);
+/// Whether an action renumbers, so that its result is judged by itself.
+bool is_renumbering(const Action& action);
 
 /// Does an action of a session again. opened: the mesh that the session began with; load: the content of a deformation
 /// file. Throws InvalidInput for actions that open or walk through the history.

@@ -100,9 +100,9 @@ RestoredWork read_lost_work(const QString& journal_path, const TaskContext& cont
         KeptHistory::Step kept{
             QString::fromStdString(step.name), QString::fromStdString(step.details), std::move(step.action), {}};
         // As when the step was done: what was renumbered is judged by itself.
-        const bool is_flip = std::holds_alternative<FlipAction>(kept.action);
-        CurvedMesh base = is_flip ? flip_orientation(*before->mesh) : *before->mesh;
-        kept.state = make_state(base.with_coordinates(std::move(step.positions)), its, is_flip ? nullptr : before);
+        const CurvedMesh base = numbered_by(kept.action, *before->mesh);
+        kept.state = make_state(base.with_coordinates(std::move(step.positions)), its,
+                                is_renumbering(kept.action) ? nullptr : before);
         kept.state.applied_deformations = to_list(step.applied_deformations);
         work.history.steps.push_back(std::move(kept));
         before = &work.history.steps.back().state;
@@ -188,10 +188,10 @@ RestoredWork redo_session(const QString& session_path, const TaskContext& contex
             return *work.deformation;
         };
         Step step = again(action, *before->mesh, *work.opened.state.mesh, load_file, its);
-        const bool is_flip = std::holds_alternative<FlipAction>(action);
-        CurvedMesh base = is_flip ? flip_orientation(*before->mesh) : *before->mesh;
+        const CurvedMesh base = numbered_by(action, *before->mesh);
         KeptHistory::Step kept{step.name, full_details(step), action, {}};
-        kept.state = make_state(base.with_coordinates(std::move(step.coordinates)), its, is_flip ? nullptr : before);
+        kept.state = make_state(base.with_coordinates(std::move(step.coordinates)), its,
+                                is_renumbering(action) ? nullptr : before);
         kept.state.applied_deformations = applied;
         work.history.steps.push_back(std::move(kept));
         work.history.session.push_back(action);

@@ -23,6 +23,8 @@ struct Step {
     std::vector<Notice> notices;
     /// Whether a notice with the advice is to be made of elements that are tangled in the new state.
     bool warns_of_tangled = true;
+    /// Least scaled Jacobian that was asked for explicitly; a notice tells if the new state does not have it.
+    std::optional<double> target;
 };
 
 }  // namespace curvewright

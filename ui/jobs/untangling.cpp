@@ -120,6 +120,7 @@ Step run(const CurvedMesh& mesh, GuaranteedOptions options, UntangleObserver* ob
     step.advice = options.boundary.is_all_fixed()
                       ? tr("Let the boundary slide, move it less, or refine the mesh there.")
                       : tr("Move the boundary less, or refine the mesh there.");
+    if (options.improves && options.target != GuaranteedOptions().target) step.target = options.target;
     if (!result.unmended.empty()) {
         step.notices.push_back(unmended_notice(result, options, step.advice, mesh.topology()));
         step.warns_of_tangled = false;

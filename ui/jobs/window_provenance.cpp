@@ -13,7 +13,9 @@ struct ActionName {
     const char* operator()(const DeformAction&) const { return "deform"; }
     const char* operator()(const WarpAction&) const { return "warp"; }
     const char* operator()(const UntangleAction&) const { return "untangle"; }
+    const char* operator()(const ImproveAction&) const { return "improve"; }
     const char* operator()(const FlipAction&) const { return "flip"; }
+    const char* operator()(const ReorientAction&) const { return "reorient"; }
     const char* operator()(const DragAction&) const { return "drag"; }
     const char* operator()(const PlaceAction&) const { return "place"; }
     template <class Other>

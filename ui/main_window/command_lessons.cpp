@@ -37,6 +37,7 @@ const Lesson lessons[] = {
     {CommandId::deform, TEXT("To see how far the mesh tangles, or to untangle it from there; to avoid that, warp.")},
     {CommandId::warp, TEXT("The first choice for a mesh that has to follow a new boundary; needs a deformation.")},
     {CommandId::untangle, TEXT("When elements are hatched; every element ends with a proof, or with the reason why not.")},
+    {CommandId::improve, TEXT("When a solver wants better elements; a limit keeps the nodes near where they are.")},
     {CommandId::flip, TEXT("When all elements are negative only because they are numbered clockwise.")},
     {CommandId::timeline_show, TEXT("To understand what moved where and when, and which element resisted.")},
     {CommandId::timeline_open, TEXT("To see here what happened on a machine without a window.")},

@@ -18,6 +18,7 @@
 #include "ui/main_window/command_palette.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/clip_bar.h"
+#include "ui/panels/improve_panel.h"
 #include "ui/panels/mesh_panel.h"
 #include "ui/panels/operation_panels.h"
 #include "ui/panels/quality_panel.h"
@@ -62,6 +63,7 @@ MainWindow::MainWindow(Theme& theme, Dialogs dialogs)
       dialogs_(std::move(dialogs)),
       jobs_(document_),
       notices_(document_),
+      global_check_(document_),
       edit_(document_),
       drag_(document_),
       samples_(SampleCatalog::load()),
@@ -126,7 +128,12 @@ void MainWindow::connect_commands() {
         show_tab(QStringLiteral("untangle"));
         untangle_panel_->run();
     });
+    on(CommandId::improve, [this] {
+        show_tab(QStringLiteral("untangle"));
+        improve_panel_->run();
+    });
     on(CommandId::flip, [this] { jobs_.flip(); });
+    on(CommandId::renumber, [this] { jobs_.renumber(); });
     on(CommandId::stop, [this] { jobs_.runner().cancel(); });
     on(CommandId::reset_layout, &MainWindow::reset_layout);
     on(CommandId::palette, [this] { (new CommandPalette(actions_, this))->open(); });
@@ -187,7 +194,8 @@ void MainWindow::connect_document() {
 }
 
 void MainWindow::connect_panels() {
-    for (OperationPanel* panel : std::initializer_list<OperationPanel*>{deform_panel_, warp_panel_, untangle_panel_})
+    for (OperationPanel* panel :
+         std::initializer_list<OperationPanel*>{deform_panel_, warp_panel_, untangle_panel_, improve_panel_})
         connect(panel, &OperationPanel::refreshed, this, &MainWindow::update_commands);
     connect(start_page_, &StartPage::open_requested, this, &MainWindow::ask_open);
     connect(start_page_, &StartPage::file_chosen, this, [this](const QString& path) { open_file(path); });
@@ -242,7 +250,7 @@ void MainWindow::show_state() {
         verdict_->setText(tr("quality unknown"));
         set_tone(verdict_, "warning");
     } else if (state.quality) {
-        show_verdict(state.quality->summary);
+        show_global();
     }
     if (Tool* tool = current_tool()) tool->refresh();
     update_commands();
@@ -283,7 +291,9 @@ void MainWindow::update_commands() {
     actions_[CommandId::deform]->setEnabled(is_idle && deform_panel_->why_not().isEmpty());
     actions_[CommandId::warp]->setEnabled(is_idle && warp_panel_->why_not().isEmpty());
     actions_[CommandId::untangle]->setEnabled(is_idle && untangle_panel_->why_not().isEmpty());
-    actions_[CommandId::flip]->setEnabled(is_idle && has_mesh && document_.state().quality);
+    actions_[CommandId::improve]->setEnabled(is_idle && improve_panel_->why_not().isEmpty());
+    for (const CommandId id : {CommandId::flip, CommandId::renumber})
+        actions_[id]->setEnabled(is_idle && has_mesh && document_.state().quality);
     actions_[CommandId::timeline_show]->setEnabled(is_idle && step_to_record() >= 0);
     actions_[CommandId::timeline_open]->setEnabled(is_idle && has_mesh && document_.state().quality);
     actions_[CommandId::timeline_save]->setEnabled(is_idle && player_.is_open());

@@ -17,6 +17,7 @@
 #include "ui/document/sample_catalog.h"
 #include "ui/document/view_bookmarks.h"
 #include "ui/jobs/element_numbers.h"
+#include "ui/jobs/global_check.h"
 #include "ui/jobs/live_drag.h"
 #include "ui/jobs/mesh_jobs.h"
 #include "ui/jobs/step_player.h"
@@ -40,6 +41,7 @@ class ClipBar;
 class ColorBar;
 class DeformPanel;
 class EditPanel;
+class ImprovePanel;
 class LogPanel;
 class MeshPanel;
 class MeshView;
@@ -67,6 +69,7 @@ class MainWindow : public QMainWindow {
     MeshDocument& document() { return document_; }
     MeshJobs& jobs() { return jobs_; }
     EditState& edit() { return edit_; }
+    GlobalCheck& global_check() { return global_check_; }
     LiveDrag& drag() { return drag_; }
     StepPlayer& player() { return player_; }
     MeshView& view() { return *view_; }
@@ -194,6 +197,8 @@ class MainWindow : public QMainWindow {
     /// Shows a notice over the view until it is dismissed, and logs it.
     void receive(const Notice& notice);
     void show_notices();
+    /// Whether the mesh is valid as a whole, in the panel and in the status bar.
+    void show_global();
     /// The button of a notice was pressed.
     void act_on(int notice, int action);
     /// Selects what an entry of the log speaks of, if the mesh is still that one.
@@ -228,6 +233,7 @@ class MainWindow : public QMainWindow {
     MeshJobs jobs_;
     NoticeBoard notices_;
     MessageLog log_;
+    GlobalCheck global_check_;
     EditState edit_;
     LiveDrag drag_;
     StepPlayer player_;
@@ -260,6 +266,7 @@ class MainWindow : public QMainWindow {
     DeformPanel* deform_panel_ = nullptr;
     WarpPanel* warp_panel_ = nullptr;
     UntanglePanel* untangle_panel_ = nullptr;
+    ImprovePanel* improve_panel_ = nullptr;  ///< below it
     WorstTable* worst_table_ = nullptr;
     QualityPanel* quality_panel_ = nullptr;
     TimelinePanel* timeline_panel_ = nullptr;

@@ -23,6 +23,7 @@
 #include "ui/panels/clip_bar.h"
 #include "ui/panels/color_bar.h"
 #include "ui/panels/edit_panel.h"
+#include "ui/panels/improve_panel.h"
 #include "ui/panels/job_bar.h"
 #include "ui/panels/log_panel.h"
 #include "ui/panels/mesh_panel.h"
@@ -202,6 +203,13 @@ void MainWindow::build_docks() {
     deform_panel_ = new DeformPanel(jobs_);
     warp_panel_ = new WarpPanel(jobs_);
     untangle_panel_ = new UntanglePanel(jobs_);
+    improve_panel_ = new ImprovePanel(jobs_);
+    auto* untangle_tab = new QWidget;
+    auto* of_tab = new QVBoxLayout(untangle_tab);
+    of_tab->setContentsMargins(0, 0, 0, 0);
+    of_tab->setSpacing(0);
+    of_tab->addWidget(untangle_panel_);
+    of_tab->addWidget(improve_panel_, 1);
     worst_table_ = new WorstTable(document_, theme_);
     quality_panel_ = new QualityPanel(document_, theme_);
     timeline_panel_ = new TimelinePanel(player_, edit_, theme_);
@@ -217,12 +225,9 @@ void MainWindow::build_docks() {
         QWidget* panel;
         const char* name;
         QString title;
-    } tabs[] = {{edit_panel_, "edit_tab", tr("Edit")},
-                {selection_panel_, "inspect_tab", tr("Inspect")},
-                {deform_panel_, "deform_tab", tr("Deform")},
-                {warp_panel_, "warp_tab", tr("Warp")},
-                {untangle_panel_, "untangle_tab", tr("Untangle")},
-                {step_panel_, "step_tab", tr("Step")}};
+    } tabs[] = {{edit_panel_, "edit_tab", tr("Edit")},          {selection_panel_, "inspect_tab", tr("Inspect")},
+                {deform_panel_, "deform_tab", tr("Deform")},    {warp_panel_, "warp_tab", tr("Warp")},
+                {untangle_tab, "untangle_tab", tr("Untangle")}, {step_panel_, "step_tab", tr("Step")}};
     for (const auto& tab : tabs) {
         QScrollArea* area = scrolling(tab.panel);
         area->setObjectName(QLatin1String(tab.name));

@@ -2,14 +2,18 @@
 
 #include <QAction>
 #include <QDesktopServices>
+#include <QLabel>
 #include <QStatusBar>
 #include <QUrl>
 
 #include "ui/main_window/main_window.h"
 #include "ui/main_window/mesh_view.h"
 #include "ui/panels/banner.h"
+#include "ui/panels/improve_panel.h"
 #include "ui/panels/log_panel.h"
+#include "ui/panels/mesh_panel.h"
 #include "ui/panels/untangle_panel.h"
+#include "ui/panels/widgets.h"
 
 namespace curvewright {
 
@@ -25,6 +29,16 @@ void MainWindow::connect_notices() {
     connect(&document_, &MeshDocument::opened, this, [this] {
         for (const QString& text : document_.notes())
             receive({NoticeSeverity::warning, text, {}, NoticeLife::document});
+        const auto& mesh = document_.state().mesh;
+        for (const Notice& notice : standing_notices(document_))
+            log_.add(log_entry(notice, present_step(), mesh->shared_topology()));
+    });
+    const auto hold = [this] { global_check_.hold(jobs_.runner().is_running() || drag_.is_active()); };
+    connect(&jobs_.runner(), &JobRunner::running_changed, &global_check_, hold);
+    connect(&drag_, &LiveDrag::active_changed, &global_check_, hold);
+    connect(&global_check_, &GlobalCheck::changed, this, &MainWindow::show_global);
+    connect(&global_check_, &GlobalCheck::found, this, [this] {
+        if (const auto notice = global_notice(*global_check_.report())) receive(*notice);
     });
     connect(&notices_, &NoticeBoard::changed, this, &MainWindow::show_notices);
     // What is under a hand stays in its place.
@@ -58,11 +72,25 @@ void MainWindow::show_notices() {
     if (had_focus && !banner_->isVisible()) view_->setFocus();
 }
 
+void MainWindow::show_global() {
+    const auto report = global_check_.report();
+    mesh_panel_->show_global(report.get(), global_check_.is_pending(), global_check_.progress());
+    const auto& quality = document_.state().quality;
+    if (!quality || drag_.is_active() || player_.is_open()) return;
+    show_verdict(quality->summary);
+    // Valid elements that overlap are not all there is to say.
+    const bool is_told = quality->summary.invalid + quality->summary.undecided > 0;
+    if (!report || is_told || report->answer != GlobalValidity::no) return;
+    verdict_->setText(global_text(*report));
+    set_tone(verdict_, "alarm");
+}
+
 void MainWindow::act_on(int notice, int place) {
     const Notice* told = notices_.find(notice);
     if (!told || place < 0 || place >= static_cast<int>(told->actions.size())) return;
     const NoticeAction action = told->actions[static_cast<std::size_t>(place)];
     if (action.command == NoticeCommand::select_elements) {
+        if (action.items.size() == 1) return select_elements(action.items, true);
         edit_.select_elements(action.items);
         return fit_selection();
     }
@@ -84,8 +112,16 @@ void MainWindow::act_on(int notice, int place) {
             show_tab(QStringLiteral("untangle"));
             jobs_.untangle(*action.options);
             break;
+        case NoticeCommand::improve:
+            improve_panel_->show_options(*action.improve);
+            show_tab(QStringLiteral("untangle"));
+            jobs_.improve(*action.improve);
+            break;
         case NoticeCommand::flip:
             jobs_.flip();
+            break;
+        case NoticeCommand::renumber:
+            jobs_.renumber();
             break;
         default:
             break;

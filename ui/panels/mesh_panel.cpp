@@ -11,6 +11,7 @@
 #include <QVBoxLayout>
 
 #include "ui/document/number_format.h"
+#include "ui/jobs/global_check.h"
 #include "ui/panels/widgets.h"
 
 namespace curvewright {
@@ -26,6 +27,9 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     validity_->setObjectName(QStringLiteral("mesh_validity"));
     minimum_ = make_paragraph(QString(), "muted");
     minimum_->setObjectName(QStringLiteral("mesh_minimum"));
+    global_ = make_paragraph(QString(), "");
+    global_->setObjectName(QStringLiteral("mesh_global"));
+    global_->hide();
 
     groups_ = new QTreeWidget;
     groups_->setObjectName(QStringLiteral("groups"));
@@ -52,7 +56,7 @@ MeshPanel::MeshPanel(MeshDocument& document, QWidget* parent) : QWidget(parent),
     layout->setSpacing(2);
     for (QLabel* label : {file_, elements_, nodes_}) layout->addWidget(label);
     layout->addSpacing(4);
-    for (QLabel* label : {validity_, minimum_}) layout->addWidget(label);
+    for (QLabel* label : {validity_, minimum_, global_}) layout->addWidget(label);
     layout->addSpacing(8);
     layout->addWidget(make_label(tr("Groups"), "section"));
     layout->addSpacing(2);
@@ -128,6 +132,21 @@ void MeshPanel::show_state() {
         return;
     }
     show_quality(state.quality->summary);
+}
+
+void MeshPanel::show_global(const GlobalValidityReport* report, bool is_pending, double progress) {
+    global_->setVisible(document_.has_mesh() && (report || is_pending));
+    if (report) {
+        global_->setText(global_text(*report));
+        const bool is_known = report->answer != GlobalValidity::undecided;
+        set_tone(global_, !is_known ? "warning" : report->answer == GlobalValidity::yes ? "good" : "alarm");
+        global_->setToolTip(QString::fromStdString(report->reason));
+    } else if (is_pending) {
+        global_->setText(progress > 0.0 ? tr("looking for overlaps, %1 %").arg(static_cast<int>(100.0 * progress))
+                                        : tr("looking for overlaps…"));
+        set_tone(global_, "muted");
+        global_->setToolTip(tr("Whether elements overlap anywhere is found out in the background."));
+    }
 }
 
 void MeshPanel::show_quality(const QualitySummary& summary) {

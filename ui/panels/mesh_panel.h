@@ -5,6 +5,7 @@
 #include <QVector>
 #include <QWidget>
 
+#include "core/quality/global_validity.h"
 #include "ui/document/mesh_document.h"
 #include "ui/document/mesh_text.h"
 
@@ -23,6 +24,8 @@ class MeshPanel : public QWidget {
     /// Of the mesh while it is being moved; show_state() ends that.
     void show_quality(const QualitySummary& summary);
     void show_state();
+    /// Whether it is valid as a whole. report: null = not known; is_pending: it is being found out, so much is done.
+    void show_global(const GlobalValidityReport* report, bool is_pending, double progress);
 
     /// The history cannot be walked while a job runs.
     void set_history_enabled(bool is_enabled);
@@ -42,7 +45,8 @@ class MeshPanel : public QWidget {
     void show_groups();
 
     MeshDocument& document_;
-    QLabel *file_ = nullptr, *elements_ = nullptr, *nodes_ = nullptr, *validity_ = nullptr, *minimum_ = nullptr;
+    QLabel *file_ = nullptr, *elements_ = nullptr, *nodes_ = nullptr, *validity_ = nullptr, *minimum_ = nullptr,
+           *global_ = nullptr;
     QTreeWidget* groups_ = nullptr;
     QUndoView* history_ = nullptr;
 };

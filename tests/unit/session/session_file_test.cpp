@@ -66,6 +66,7 @@ std::vector<Action> all_actions() {
             UntangleAction{automatic},
             UntangleAction{literal},
             FlipAction{},
+            ReorientAction{},
             drag,
             plain,
             PlaceAction{{{{3}, {0.1, 0.2, 0.3}}}},
