@@ -183,7 +183,7 @@ TEST(Increments, ClockwiseMeshesStayClockwise) {
     const CurvedMesh mesh = flip_orientation(square_mesh(5, 2));
     const IncrementalResult result = warp_in_increments(mesh, bending(mesh, 0.3), {}, {2, true, 0.1});
     EXPECT_TRUE(result.increments.is_complete());
-    EXPECT_EQ(result.quality.orientation_sign, -1.0);
+    EXPECT_EQ(result.quality.orientation_sign, OrientationSigns(-1.0));
     EXPECT_EQ(result.quality.summary.valid, mesh.topology().element_count());
 }
 
