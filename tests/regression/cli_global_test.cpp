@@ -18,9 +18,9 @@ struct Bulge {
 };
 
 std::vector<Bulge> bulges() {
-    return {{square_mesh(4, 2), R"({"operations": [{"group": "bottom", "type": "expression", "y": "1.5*sin(pi*x)"}]})"},
+    return {{square_mesh(4, 2), R"json({"operations": [{"group": "bottom", "type": "expression", "y": "1.5*sin(pi*x)"}]})json"},
             {cube_mesh(2, 2),
-             R"({"operations": [{"group": "z0", "type": "expression", "z": "1.5*sin(pi*x)*sin(pi*y)"}]})"}};
+             R"json({"operations": [{"group": "z0", "type": "expression", "z": "1.5*sin(pi*x)*sin(pi*y)"}]})json"}};
 }
 
 TEST_F(CommandLine, AMeshIsToldToBeValidAsAWhole) {
