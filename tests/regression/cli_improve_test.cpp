@@ -86,7 +86,8 @@ TEST_F(Improving, KeepsNodesOfFilesAndGroups) {
         const Coordinates x = coordinates();
         EXPECT_EQ(x.row(a), input.coordinates().row(a));
         EXPECT_EQ(x.row(b), input.coordinates().row(b));
-        for (const Index node : topology.find_group_nodes("left").value())
+        const std::vector<Index> left = topology.find_group_nodes("left").value();
+        for (const Index node : left)
             EXPECT_EQ(x.row(node), input.coordinates().row(node));
         EXPECT_NE(x, input.coordinates());
     }
