@@ -84,9 +84,9 @@ TEST(SessionFile, EveryActionComesBackAsItWas) {
         EXPECT_EQ(back.index(), action.index()) << line;
         EXPECT_EQ(to_json_line(back), line);
     }
-    const Action back = parse_action(to_json_line(all_actions()[9]));
+    const Action back = parse_action(to_json_line(all_actions()[10]));
     const auto& drag = std::get<DragAction>(back);
-    const Action first = all_actions()[9];
+    const Action first = all_actions()[10];
     const auto& its = std::get<DragAction>(first);
     EXPECT_EQ(drag.nodes, its.nodes);
     EXPECT_EQ(drag.weights, its.weights);
