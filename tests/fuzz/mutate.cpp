@@ -14,6 +14,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <iterator>
 #include <stdexcept>
@@ -156,7 +157,7 @@ Outcome apart(Shared& shared, std::uint64_t memory, const std::function<bool()>&
 #if !defined(__SANITIZE_ADDRESS__)
         if (memory > 0) {
             long pages = 0;
-            std::sscanf(read_text_file("/proc/self/statm").c_str(), "%ld", &pages);
+            std::ifstream("/proc/self/statm") >> pages;
             const rlim_t all = static_cast<rlim_t>(pages) * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + memory;
             const rlimit most{all, all};
             ::setrlimit(RLIMIT_AS, &most);

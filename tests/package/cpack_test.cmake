@@ -27,7 +27,7 @@ run(0 ${CMAKE_COMMAND} -E env --unset=DISPLAY ${WORK}/root/usr/bin/curvewright-c
 expect("${output}" "\"invalid\": 0")
 # A VTK file is read by the program in libexec, wherever the package lies.
 set(cli ${WORK}/root/usr/bin/curvewright-cli)
-run(0 ${cli} convert ${SAMPLE} -o ${WORK}/sample.vtu)
+run(0 ${cli} convert ${SAMPLE} ${WORK}/sample.vtu)
 run(0 ${cli} quality ${WORK}/sample.vtu --json)
 expect("${output}" "\"invalid\": 0")
 file(RENAME ${WORK}/root/usr/libexec ${WORK}/root/usr/elsewhere)

@@ -18,7 +18,8 @@ struct Bulge {
 };
 
 std::vector<Bulge> bulges() {
-    return {{square_mesh(4, 2), R"json({"operations": [{"group": "bottom", "type": "expression", "y": "1.5*sin(pi*x)"}]})json"},
+    return {{square_mesh(4, 2),
+             R"json({"operations": [{"group": "bottom", "type": "expression", "y": "1.5*sin(pi*x)"}]})json"},
             {cube_mesh(2, 2),
              R"json({"operations": [{"group": "z0", "type": "expression", "z": "1.5*sin(pi*x)*sin(pi*y)"}]})json"}};
 }

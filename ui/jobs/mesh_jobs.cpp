@@ -143,7 +143,11 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         const std::stop_callback on_cancel(context.stop, stop), on_keep(keep, stop);
         Step result = step(*start.mesh, {either.get_token(), context.progress});
         context.check();
-        if (result.coordinates == start.mesh->coordinates()) return nothing_moved(std::move(result), then);
+        if (result.coordinates == start.mesh->coordinates()) {
+            if (start.quality && start.quality->summary.invalid > 0 && !result.advice.isEmpty())
+                result.note += QLatin1Char(' ') + result.advice;
+            return nothing_moved(std::move(result), then);
+        }
         MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context, &start);
         state.applied_deformations = applied;
         QString text = result.note;
@@ -181,8 +185,9 @@ JobRunner::Finish MeshJobs::nothing_moved(Step result, std::function<void(bool)>
     const QString why = first.text;
     first.text = tr("Nothing moved, so there is no new step.");
     if (!why.isEmpty()) first.text += QLatin1Char(' ') + why;
-    return [this, notices, then = std::move(then)] {
+    return [this, notices, text = result.note, then = std::move(then)] {
         if (then) then(false);
+        if (!text.isEmpty()) emit note(text);
         for (const Notice& notice : notices) emit noticed(notice);
     };
 }
