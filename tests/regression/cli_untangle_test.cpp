@@ -27,13 +27,6 @@ void expect_same_boundary(const std::string& before_file, const std::string& aft
         EXPECT_EQ(before.coordinates().row(node), after.coordinates().row(node)) << node;
 }
 
-/// A file without the line that tells the command that made it.
-std::string without_command(std::string text) {
-    const std::size_t begin = text.find("\nCommand: ");
-    EXPECT_NE(begin, std::string::npos);
-    return text.erase(begin, text.find('\n', begin + 1) - begin);
-}
-
 TEST_F(CommandLine, UntangleIsGuaranteedUnlessToldOtherwise) {
     make_tangled();
     const std::string out = folder / "valid.msh", trace = folder / "trace.jsonl";
