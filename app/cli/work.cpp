@@ -58,6 +58,7 @@ Provenance Work::provenance() const {
 }
 
 void Work::print(Json json) {
+    end_phase("finish");
     json["notes"] = notes_;
     json["timings"] = timings_;
     json["timings"]["total"] = watch_.seconds();
