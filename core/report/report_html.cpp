@@ -315,8 +315,6 @@ std::string input_section(const RunReport& report) {
     for (const auto& [name, version] : report.versions)
         versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", escaped(name), escaped(version));
     html += property("Versions", versions);
-    if (!report.made_by.empty())
-        html += property("Made by", "<span class=\"mono\">" + escaped(report.made_by) + "</span>");
     html += "</tbody></table>\n";
     if (!report.input.steps.empty()) {
         html += "<p>Before it was untangled, this was done to the mesh of the file (lines of a session):</p>\n<pre>";
@@ -328,6 +326,8 @@ std::string input_section(const RunReport& report) {
 
 std::string run_section(const RunReport& report) {
     std::string html = fmt::format("<section id=\"run\">\n<h2>This run</h2>\n<p>Written {}.</p>\n", report.written);
+    if (!report.made_by.empty())
+        html += fmt::format("<p>Made by <span class=\"mono\">{}</span></p>\n", escaped(report.made_by));
     for (const std::string& remark : report.remarks) html += fmt::format("<p>{}</p>\n", escaped(remark));
     html += "<table><tbody>";
     for (const auto& [name, seconds] : report.timings)

@@ -170,8 +170,6 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
         {"input", input_json(report)},
         {"method", {{"name", report.method}, {"parameters", parameters}, {"command", or_null(report.command)}}},
         {"versions", versions},
-        {"made_by",
-         {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
         {"before", quality_json(report.before)},
         {"after", quality_json(report.after)},
         {"outcome", outcome_json(report)},
@@ -198,7 +196,12 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
           {"proved_impossible", report.impossible},
           {"not_valid", array_of(report.not_valid, unproved_json)}}},
         {"pictures", {{"count", pictures.png.size()}, {"note", or_null(pictures.note)}}},
-        {"run", {{"written", report.written}, {"remarks", report.remarks}, {"timings", timings}}}};
+        {"run",
+         {{"written", report.written},
+          {"made_by",
+           {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
+          {"remarks", report.remarks},
+          {"timings", timings}}}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -516,7 +516,7 @@ class StepPanelTest : public QObject {
         const Recording& recording = test.recording();
         const RecordedPatch& last = recording.patches().back();
         QVERIFY(test.go_to(last.first));
-        QTest::qWait(400);
+        QTest::qWait(1000);
         const auto& elements = test.player().shown().patch->elements;
         for (const Index element : elements)
             for (const Index node : recording.mesh().topology().element_nodes(element)) {
