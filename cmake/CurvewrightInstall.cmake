@@ -1,5 +1,5 @@
 # What `cmake --install` puts where. Component "library": the static library, its headers and the CMake package
-# Curvewright (target Curvewright::core). Component "cli": the command line. Component "desktop": the window, its samples, and
+# Curvewright (targets Curvewright::core and Curvewright::vtk_reader). Component "cli": the command line. Component "desktop": the window, its samples, and
 # what a desktop wants to know of it.
 
 include(CMakePackageConfigHelpers)
@@ -17,6 +17,17 @@ install(TARGETS curvewright_core curvewright_options EXPORT CurvewrightTargets C
 install(FILES core/curvewright.h DESTINATION ${header_folder} COMPONENT library)
 install(DIRECTORY core DESTINATION ${header_folder} COMPONENT library FILES_MATCHING PATTERN "*.h"
         PATTERN "vtk_*" EXCLUDE PATTERN "curvewright.h" EXCLUDE)
+
+# The program that reads VTK files goes with each of them: no other reads one without it. A library knows it by the
+# definition, wherever the whole has been moved to.
+set_target_properties(curvewright-vtk-reader PROPERTIES EXPORT_NAME vtk_reader)
+target_compile_definitions(curvewright_core INTERFACE
+    $<INSTALL_INTERFACE:CURVEWRIGHT_VTK_READER="$<INSTALL_PREFIX>/${CURVEWRIGHT_LIBEXEC_FOLDER}/curvewright-vtk-reader">)
+install(TARGETS curvewright-vtk-reader EXPORT CurvewrightTargets
+    RUNTIME DESTINATION ${CURVEWRIGHT_LIBEXEC_FOLDER} COMPONENT library)
+foreach(component cli desktop)
+    install(TARGETS curvewright-vtk-reader RUNTIME DESTINATION ${CURVEWRIGHT_LIBEXEC_FOLDER} COMPONENT ${component})
+endforeach()
 
 install(EXPORT CurvewrightTargets NAMESPACE Curvewright:: DESTINATION ${package_folder} COMPONENT library)
 configure_package_config_file(cmake/CurvewrightConfig.cmake.in ${PROJECT_BINARY_DIR}/CurvewrightConfig.cmake

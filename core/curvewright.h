@@ -44,3 +44,10 @@
 #include "core/warp/response.h"
 #include "core/warp/straight_start.h"
 #include "core/warp/warp.h"
+
+#ifdef CURVEWRIGHT_VTK_READER
+namespace curvewright::detail {
+/// The target Curvewright::core knows where the library's program that reads VTK files lies.
+inline const bool is_vtk_reader_named = (set_vtk_reader(CURVEWRIGHT_VTK_READER), true);
+}  // namespace curvewright::detail
+#endif

@@ -27,7 +27,7 @@ void drag(const CurvedMesh& mesh, const std::string& group) {
 
     const Warper warper(mesh);
     const ResponseField field(warper, set, ResponseKind::affine, center);
-    const double orientation = assess_quality(mesh).orientation_sign;
+    const OrientationSigns orientation = assess_quality(mesh).orientation_sign;
     Coordinates frame = mesh.coordinates();
     for (int degrees = 10; degrees <= 90; degrees += 10) {
         const AffineMotion turn = AffineMotion::rotation(Eigen::Vector3d::UnitZ(), degrees * EIGEN_PI / 180.0);

@@ -19,12 +19,13 @@ as_root() {
     if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi
 }
 
-# install_packages run|test|package|docs: what is not there yet, through apt.
+# install_packages run|test|package|docs|fuzz: what is not there yet, through apt.
 install_packages() {
     local wanted=("${run_packages[@]}") missing=() package
     [ "$1" = test ] && wanted+=("${test_packages[@]}")
     [ "$1" = package ] && wanted+=("${package_packages[@]}")
     [ "$1" = docs ] && wanted+=("${docs_packages[@]}")
+    [ "$1" = fuzz ] && wanted+=("${fuzz_packages[@]}")
     command -v dpkg-query >/dev/null || return 0
     for package in "${wanted[@]}"; do
         [ "$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")

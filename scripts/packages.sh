@@ -8,5 +8,7 @@ run_packages=(g++ cmake ninja-build libvtk9-dev qt6-base-dev libqt6opengl6-dev q
 package_packages=(dpkg-dev file gzip)
 # To make the documentation.
 docs_packages=(doxygen)
+# To fuzz: Clang with its runtime libraries. (The second is named after the first's version in Debian 12.)
+fuzz_packages=(clang libclang-rt-14-dev)
 # To test: the framework, a display without a screen, and what makes packages.
 test_packages=(libgtest-dev xvfb xauth "${package_packages[@]}")

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <optional>
 
 #include <fmt/format.h>
@@ -87,7 +89,12 @@ void add_quality(CLI::App& app, Invocation& invocation) {
             "--min", [options](const double& least) { options->least = least; },
             "End with status 3 if an element's scaled Jacobian is below this")
         ->type_name("Q")
-        ->check(CLI::Range(-1e300, 1.0));
+        ->check([](const std::string& text) {
+            char* end = nullptr;
+            const double least = std::strtod(text.c_str(), &end);
+            const bool is_number = end != text.c_str() && *end == '\0' && std::isfinite(least) && least <= 1.0;
+            return is_number ? std::string() : "the least quality must be a number of at most 1";
+        });
     set_action(*command, invocation, options, run);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <string_view>
 
 namespace curvewright::cli {
@@ -19,6 +20,14 @@ std::string quoted(const std::string& word) {
     std::string text = "'";
     for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
     return text + "'";
+}
+
+/// Files without their folders, as reports have them: where somebody keeps files is nobody's business.
+std::string recorded_value(const std::string& value) {
+    std::error_code ignored;
+    const std::filesystem::path path(value);
+    const bool is_file = path.has_parent_path() && std::filesystem::exists(path, ignored);
+    return quoted(is_file ? path.filename().string() : value);
 }
 
 /// The long name without dashes, or the name of a positional.
@@ -42,7 +51,8 @@ std::string recorded_command(const CLI::App& command) {
             continue;
         }
         for (const std::string& value : option->results())
-            (is_positional ? positionals : options) += (is_positional ? " " : " --" + name + " ") + quoted(value);
+            (is_positional ? positionals : options) +=
+                (is_positional ? " " : " --" + name + " ") + recorded_value(value);
     }
     return "curvewright-cli " + command.get_name() + positionals + options;
 }

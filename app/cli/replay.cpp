@@ -39,7 +39,7 @@ int run(const Options& options, Work& work) {
     for (const std::string& note : replay.notes()) work.note(note);
     const Assessment before = assess(replay.opened(), work);
     const Assessment quality = assess_result(replay.mesh(), before, work);
-    work.set_input(replay.mesh_file());
+    work.set_input(replay.mesh_file());  // after it was read: the session names it
     const auto global = check_globally(replay.mesh(), quality, work);
     if (writes)
         write_output(options.output, replay.mesh(), replay.fields(), quality.report ? &*quality.report : nullptr,

@@ -47,7 +47,7 @@ int note_target(const Target& target, const TargetOutcome& outcome, Work& work) 
 }
 
 bool note_cancelled(const QualityReport& best, const std::filesystem::path& output, Work& work) {
-    const Index not_valid = best.summary.elements() - best.summary.valid;
+    const Index not_valid = best.summary.invalid + best.summary.undecided;
     if (not_valid == 0) {
         work.note(fmt::format("Cancelled; the best valid mesh so far was written to {}.", output.string()));
         return true;

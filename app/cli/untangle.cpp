@@ -113,18 +113,18 @@ std::vector<std::filesystem::path> report_neighbours(const Options& options) {
 }
 
 /// What became of a mesh that was valid.
-void note_unchanged(const Target& target, const TargetOutcome& outcome, Work& work) {
+void note_unchanged(const Target& target, const TargetOutcome& outcome, bool are_all_assessed, Work& work) {
+    const std::string none = are_all_assessed ? "No element is tangled" : "No element that was assessed is tangled";
     if (!target.is_explicit)
-        work.note("No element is tangled; nothing was changed. `improve` raises the quality of a valid mesh.");
+        work.note(none + "; nothing was changed. `improve` raises the quality of a valid mesh.");
     else if (outcome.is_reached())
-        work.note(
-            fmt::format("No element is tangled, and all reach the target {:g}; nothing was changed.", target.value));
+        work.note(fmt::format("{}, and all reach the target {:g}; nothing was changed.", none, target.value));
     else
-        work.note(
-            fmt::format("No element is tangled; nothing was changed. {} below the target {:g} (the least is "
-                        "{:.4g}); `improve --target {:g}` raises the quality of a valid mesh.",
-                        outcome.below == 1 ? "1 element is" : fmt::format("{} elements are", outcome.below),
-                        target.value, outcome.least, target.value));
+        work.note(fmt::format(
+            "{}; nothing was changed. {} below the target {:g} (the least is {:.4g}); `improve --target {:g}` "
+            "raises the quality of a valid mesh.",
+            none, outcome.below == 1 ? "1 element is" : fmt::format("{} elements are", outcome.below), target.value,
+            outcome.least, target.value));
 }
 
 /// Notes how the result stands to the target, if it is valid; the status that follows.
@@ -133,7 +133,7 @@ int note_outcome(const Options& options, bool was_valid, const QualityReport& af
     const Target target{options.guaranteed.target, options.has_target};
     const TargetOutcome outcome = compare(target, scaled_jacobians(after));
     if (was_valid) {
-        note_unchanged(target, outcome, work);
+        note_unchanged(target, outcome, after.summary.not_assessed == 0, work);
         return target.is_explicit && !outcome.is_reached() ? exit_less_than_asked : validity;
     }
     const bool has_target = options.method == guaranteed_method && options.guaranteed.improves;

@@ -38,7 +38,10 @@ void Work::end_phase(const std::string& phase, const std::vector<std::pair<std::
 }
 
 void Work::set_input(const std::filesystem::path& file) {
-    if (input_.empty()) input_ = file;
+    if (!input_.empty()) return;
+    input_ = file;
+    std::error_code ignored;
+    input_time_ = std::filesystem::last_write_time(file, ignored);
 }
 
 Provenance Work::provenance() const {
@@ -47,12 +50,15 @@ Provenance Work::provenance() const {
     provenance.command = invocation_.command;
     provenance.input = input_.filename().string();
     std::error_code ignored;
-    // A pipe has no content any more.
-    if (std::filesystem::is_regular_file(input_, ignored)) provenance.input_sha256 = sha256_of_file(input_);
+    // A pipe has no content any more, and a file that was written meanwhile is another one.
+    if (std::filesystem::is_regular_file(input_, ignored) &&
+        std::filesystem::last_write_time(input_, ignored) == input_time_)
+        provenance.input_sha256 = sha256_of_file(input_);
     return provenance;
 }
 
 void Work::print(Json json) {
+    end_phase("finish");
     json["notes"] = notes_;
     json["timings"] = timings_;
     json["timings"]["total"] = watch_.seconds();

@@ -43,7 +43,8 @@ class Work {
     const Json& timings() const { return timings_; }
     double seconds(const std::string& phase) const { return timings_.value(phase, 0.0); }
 
-    /// The mesh that the command works on, for the provenance of what it writes; the first one counts.
+    /// The mesh that the command works on, for the provenance of what it writes; the first one counts. To be
+    /// called before it is read.
     void set_input(const std::filesystem::path& file);
     /// Who makes what is written: this program, the command, and the input with the hash of its bytes.
     Provenance provenance() const;
@@ -59,6 +60,7 @@ class Work {
     TaskContext context_;
     std::vector<std::string> notes_;
     std::filesystem::path input_;
+    std::filesystem::file_time_type input_time_{};  ///< before it was read
     Json timings_ = Json::object();
     Stopwatch watch_;
     double phase_began_ = 0.0;

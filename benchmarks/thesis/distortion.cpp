@@ -25,7 +25,7 @@ bool is_curved(const CurvedMesh& mesh, Index element) {
 
 MeshDistortion distortion_of(const UntangleCase& problem, const Coordinates& coordinates) {
     QualityOptions options;
-    options.orientation_sign = orientation_sign(find_orientation(problem.mesh), problem.mesh);
+    options.orientation_sign = orientation_signs(problem.mesh);
     const CurvedMesh mesh = problem.mesh.with_coordinates(coordinates);
     const QualityReport report = assess_quality(mesh, options);
     MeshDistortion distortion{report.summary.min,

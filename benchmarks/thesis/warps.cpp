@@ -17,7 +17,7 @@ constexpr std::size_t most_nodes_to_improve = 10000;
 
 QualitySummary judge(const WarpCase& problem, const Coordinates& coordinates) {
     QualityOptions options;
-    options.orientation_sign = orientation_sign(find_orientation(problem.mesh), problem.mesh);
+    options.orientation_sign = orientation_signs(problem.mesh);
     return assess_quality(problem.mesh.with_coordinates(coordinates), options).summary;
 }
 

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 #include "core/io/atomic_file.h"
 #include "core/io/mesh_io.h"
 
@@ -190,6 +191,8 @@ long line_of(const std::string& text, std::size_t byte) {
 }
 
 OperationList read_operations(const std::string& text, const std::string& file) {
+    if (is_json_too_deep(text))
+        throw InvalidInput(file, 0, fmt::format("lists stand in each other more than {} deep.", deepest_json));
     json document;
     try {
         document = json::parse(text);
@@ -282,12 +285,17 @@ NodeTable table_of_mesh(const CurvedMesh& mesh) {
 
 }  // namespace
 
+Deformation parse_deformation(const std::string& text, const std::string& file, bool is_table) {
+    if (is_table) return {read_table(text, file), file};
+    return {read_operations(text, file), file};
+}
+
 Deformation read_deformation(const std::filesystem::path& file, const TaskContext& context) {
     context.check();
     std::string suffix = file.extension().string();
     std::transform(suffix.begin(), suffix.end(), suffix.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (suffix == ".json") return {read_operations(read_text_file(file), file.string()), file.string()};
-    if (suffix == ".csv") return {read_table(read_text_file(file), file.string()), file.string()};
+    if (suffix == ".json" || suffix == ".csv")
+        return parse_deformation(read_text_file(file), file.string(), suffix == ".csv");
     if (!format_of_suffix(file)) {
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) read_text_file(file);  // tells what is wrong with it

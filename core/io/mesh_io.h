@@ -58,6 +58,13 @@ struct WriteOptions {
 std::vector<std::string> write_mesh(const std::filesystem::path& file, const CurvedMesh& mesh,
                                     const WriteOptions& options = {});
 
+/// Names the program that reads VTK files (curvewright-vtk-reader) for this process: VTK's own readers crash on damaged
+/// files, so they run in a process of their own. Without a name it is looked for beside the running program, in
+/// ../libexec/curvewright from there, and where the library was installed; without the program VTU and VTK files cannot
+/// be read. An installed library's curvewright.h names it already. An empty path goes back to looking. May be called on
+/// any thread.
+void set_vtk_reader(const std::filesystem::path& program);
+
 /// Format that a file name means; none if the suffix is unknown.
 std::optional<MeshFormat> format_of_suffix(const std::filesystem::path& file);
 

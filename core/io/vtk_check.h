@@ -214,7 +214,8 @@ inline void check_xml_arrays(std::string_view text, const std::string& file) {
     for (std::size_t begin = text.find("Array "); begin != text.npos; begin = text.find("Array ", begin + 1)) {
         const std::string_view before = text.substr(0, begin);
         if (!before.ends_with("<") && !before.ends_with("<Data")) continue;
-        const std::string_view tag = text.substr(begin, text.find('>', begin) - begin);
+        // Up to the next tag at most: no text makes this look through all of it again and again.
+        const std::string_view tag = text.substr(begin, text.find_first_of("<>", begin) - begin);
         const auto attribute = [&](const char* name) -> std::string_view {
             const std::string opening = fmt::format(" {}=\"", name);
             const std::size_t found = tag.find(opening);

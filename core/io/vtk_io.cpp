@@ -3,119 +3,32 @@
 #include <algorithm>
 #include <charconv>
 #include <climits>
-#include <mutex>
-#include <new>
 #include <string_view>
-#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
 #include <vtkDoubleArray.h>
-#include <vtkErrorCode.h>
 #include <vtkIntArray.h>
-#include <vtkLogger.h>
 #include <vtkNew.h>
-#include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkSmartPointer.h>
 #include <vtkTypeInt64Array.h>
 #include <vtkUnsignedCharArray.h>
 #include <vtkUnstructuredGrid.h>
-#include <vtkUnstructuredGridReader.h>
 #include <vtkUnstructuredGridWriter.h>
-#include <vtkXMLUnstructuredGridReader.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
 #include "core/base/error.h"
+#include "core/io/vtk_answer.h"
 #include "core/io/vtk_check.h"
 #include "core/io/vtk_grid.h"
+#include "core/io/vtk_messages.h"
+#include "core/io/vtk_process.h"
 
 namespace curvewright {
 namespace {
-
-/// Where VTK's complaints of one thread go while it reads or writes, instead of the terminal.
-class CapturingWindow : public vtkOutputWindow {
-  public:
-    static CapturingWindow* New() {
-        auto* window = new CapturingWindow;
-        window->InitializeObjectBase();
-        return window;
-    }
-
-    void DisplayText(const char* text) override { forward(text, &vtkOutputWindow::DisplayText); }
-    void DisplayErrorText(const char* text) override { keep(text, error_, &vtkOutputWindow::DisplayErrorText); }
-    void DisplayWarningText(const char* text) override { keep(text, warning_, &vtkOutputWindow::DisplayWarningText); }
-    void DisplayGenericWarningText(const char* text) override {
-        keep(text, warning_, &vtkOutputWindow::DisplayGenericWarningText);
-    }
-
-    void set_previous(vtkOutputWindow* previous) { previous_ = previous; }
-    /// The first of its kind; empty if there was none.
-    const std::string& error() const { return error_; }
-    const std::string& warning() const { return warning_; }
-
-  private:
-    using Display = void (vtkOutputWindow::*)(const char*);
-
-    /// What other threads say meanwhile is passed on.
-    void forward(const char* text, Display display) {
-        if (std::this_thread::get_id() != thread_ && previous_ != nullptr) (previous_->*display)(text);
-    }
-    void keep(const char* text, std::string& place, Display display) {
-        if (std::this_thread::get_id() == thread_ && place.empty()) place = text;
-        forward(text, display);
-    }
-
-    std::thread::id thread_ = std::this_thread::get_id();
-    vtkSmartPointer<vtkOutputWindow> previous_;
-    std::string error_, warning_;
-};
-
-/// Catches VTK's complaints for its lifetime. One at a time: VTK has one output window and one log per process.
-class Capture {
-  public:
-    Capture() : lock_(mutex()), previous_(vtkOutputWindow::GetInstance()) {
-        window_->set_previous(previous_);
-        vtkOutputWindow::SetInstance(window_);
-        vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
-    }
-    ~Capture() {
-        vtkLogger::SetStderrVerbosity(verbosity_);
-        vtkOutputWindow::SetInstance(previous_);
-    }
-    Capture(const Capture&) = delete;
-    Capture& operator=(const Capture&) = delete;
-
-    /// With warnings: legacy files that end too early give no more than that.
-    bool has_error(bool with_warnings = false) const {
-        return !window_->error().empty() || (with_warnings && !window_->warning().empty());
-    }
-    /// The first complaint as one line, without VTK's "ERROR: In FILE, line N" and the address of the object.
-    std::string message() const {
-        std::string text = window_->error().empty() ? window_->warning() : window_->error();
-        const std::size_t object = text.find("): ");
-        if (object != text.npos) text = text.substr(object + 3);
-        std::string line;
-        for (const char c : text) {
-            const char shown = c == '\n' || c == '\t' || c == '\r' ? ' ' : c;
-            if (shown != ' ' || (!line.empty() && line.back() != ' ')) line += shown;
-        }
-        while (!line.empty() && (line.back() == ' ' || line.back() == '.')) line.pop_back();
-        return line.substr(0, 300);
-    }
-
-  private:
-    static std::mutex& mutex() {
-        static std::mutex instance;
-        return instance;
-    }
-    std::lock_guard<std::mutex> lock_;
-    vtkSmartPointer<vtkOutputWindow> previous_;
-    vtkNew<CapturingWindow> window_;
-    vtkLogger::Verbosity verbosity_ = vtkLogger::GetCurrentVerbosityCutoff();
-};
 
 /// The rows of an array of numbers, in the shortest form that reads back as the same numbers.
 std::string exact_rows(vtkDataArray& array) {
@@ -215,60 +128,48 @@ HexahedronOrder hide_old_version(std::string& text) {
     return HexahedronOrder::vtk9;
 }
 
-/// The grid that a legacy or XML reader makes of the text. The text must outlive the call.
-template <class Reader>
-vtkSmartPointer<vtkUnstructuredGrid> run(Reader& reader, const std::string& file, const char* expected,
-                                         bool with_warnings) {
-    Capture capture;
-    try {
-        reader.Update();
-    } catch (const std::bad_alloc&) {
-        throw InvalidInput(file, 0,
-                           fmt::format("the file is damaged: it asks for more memory than there is; {} was "
-                                       "expected.",
-                                       expected));
-    } catch (const std::exception& error) {
-        throw InvalidInput(file, 0, fmt::format("the file is damaged ({}); {} was expected.", error.what(), expected));
-    }
-    const bool has_error = capture.has_error(with_warnings);
-    if (has_error || reader.GetErrorCode() != vtkErrorCode::NoError || reader.GetOutput() == nullptr)
-        throw InvalidInput(file, 0,
-                           fmt::format("the file cannot be read as {} ({}).", expected,
-                                       has_error ? capture.message() : "VTK gives no reason"));
-    return reader.GetOutput();
-}
-
 }  // namespace
 
-ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format, const TaskContext& context) {
-    vtkSmartPointer<vtkUnstructuredGrid> grid;
-    HexahedronOrder order = HexahedronOrder::vtk9;  // legacy files: VTK sees to it
+const char* check_vtk_text(std::string_view text, const std::string& file, MeshFormat format) {
     if (format == MeshFormat::vtu) {
         const char* expected = "a VTK XML unstructured grid";
         if (text.substr(0, 4096).find("UnstructuredGrid") == text.npos)
             throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
         check_xml_arrays(text, file);
-        order = hide_old_version(text);
-        vtkNew<vtkXMLUnstructuredGridReader> reader;
-        reader->ReadFromInputStringOn();
-        reader->SetInputString(text);
-        text = {};
-        grid = run(*reader, file, expected, false);
-    } else {
-        const char* expected = "a legacy VTK file with an unstructured grid";
-        if (!text.starts_with("# vtk DataFile") || text.substr(0, 4096).find("UNSTRUCTURED_GRID") == text.npos)
-            throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
-        if (text.size() > static_cast<std::size_t>(INT_MAX))
-            throw Unsupported(fmt::format("{}: legacy VTK files above 2 GB are not supported; use .vtu.", file));
-        LegacyVtkCheck(text, file).run();
-        vtkNew<vtkUnstructuredGridReader> reader;
-        reader->ReadFromInputStringOn();
-        reader->SetInputString(text.data(), static_cast<int>(text.size()));
-        text = {};
-        grid = run(*reader, file, expected, true);
+        return expected;
     }
+    const char* expected = "a legacy VTK file with an unstructured grid";
+    if (!text.starts_with("# vtk DataFile") || text.substr(0, 4096).find("UNSTRUCTURED_GRID") == text.npos)
+        throw InvalidInput(file, 0, fmt::format("the file is not {}.", expected));
+    if (text.size() > static_cast<std::size_t>(INT_MAX))
+        throw Unsupported(fmt::format("{}: legacy VTK files above 2 GB are not supported; use .vtu.", file));
+    LegacyVtkCheck(text, file).run();
+    return expected;
+}
+
+ReadResult mesh_of_vtk_answer(std::span<std::byte> answer, const std::string& file, MeshFormat format,
+                              HexahedronOrder order) {
+    vtkSmartPointer<vtkUnstructuredGrid> grid;
+    try {
+        const Capture capture;
+        grid = grid_of_vtk_answer(answer);
+    } catch (const InvalidInput& error) {
+        throw InvalidInput(
+            file, 0,
+            fmt::format("the answer of the program that reads VTK files cannot be understood ({}).", error.what()));
+    }
+    return mesh_of_grid(*grid, file, format, order);
+}
+
+ReadResult read_vtk(std::string text, const std::string& file, MeshFormat format, const TaskContext& context) {
+    const char* expected = check_vtk_text(text, file, format);
+    const HexahedronOrder order = format == MeshFormat::vtu ? hide_old_version(text)
+                                                            : HexahedronOrder::vtk9;  // legacy files: VTK sees to it
+    const VtkReaderLimits limits = vtk_reader_limits(text.size());
+    const auto answer =
+        read_in_vtk_process(std::move(text), format == MeshFormat::vtu, file, expected, limits, context);
     context.report("reading", 0.5);
-    ReadResult result = mesh_of_grid(*grid, file, format, order);
+    ReadResult result = mesh_of_vtk_answer(answer->bytes(), file, format, order);
     context.report("reading", 1.0);
     return result;
 }

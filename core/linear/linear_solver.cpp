@@ -89,18 +89,6 @@ double relative_residual(const BlockMatrix& matrix, const MultiVector& x, const 
 
 }  // namespace
 
-const char* to_string(SolverChoice solver) {
-    switch (solver) {
-        case SolverChoice::automatic:
-            return "auto";
-        case SolverChoice::direct:
-            return "direct";
-        case SolverChoice::iterative:
-            return "iterative";
-    }
-    return "";
-}
-
 class LinearSolver::Implementation {
   public:
     Implementation(LinearSystem given, const SolverOptions& solver_options, const TaskContext& context)

@@ -33,11 +33,22 @@ void reduce(NodePlace& place) {
     for (auto& [corner, weight] : place) weight /= std::max(divisor, 1L);
 }
 
+/// Tags of an entity and of its parts in a partitioned mesh.
+std::set<int> tags_of(const MeshData& data, int dim, int tag) {
+    std::set<int> tags = {tag};
+    for (const Entity& entity : data.entities)
+        if (entity.dimension == dim && entity.is_partition() && entity.parent_dimension == dim &&
+            entity.parent_tag == tag)
+            tags.insert(entity.tag);
+    return tags;
+}
+
 /// Calls visit(node, place) for every node of the cells on an entity.
 template <class Visit>
 void visit_places(const MeshData& data, int dim, int tag, const Visit& visit) {
+    const std::set<int> tags = tags_of(data, dim, tag);
     for (const ElementBlock& block : data.blocks) {
-        if (dimension(block.type.shape) != dim || block.entity_tag != tag || block.size() == 0) continue;
+        if (dimension(block.type.shape) != dim || !tags.contains(block.entity_tag) || block.size() == 0) continue;
         if (block.type.shape == Shape::pyramid) continue;  // no boundary cell
         const Eigen::MatrixXd weights = integer_weights(block.type);
         for (Index cell = 0; cell < block.size(); ++cell) {
@@ -57,8 +68,9 @@ void visit_places(const MeshData& data, int dim, int tag, const Visit& visit) {
 /// Nodes of the cells on an entity, ascending.
 std::set<Index> nodes_on(const MeshData& data, int dim, int tag) {
     std::set<Index> nodes;
+    const std::set<int> tags = tags_of(data, dim, tag);
     for (const ElementBlock& block : data.blocks)
-        if (dimension(block.type.shape) == dim && block.entity_tag == tag)
+        if (dimension(block.type.shape) == dim && tags.contains(block.entity_tag))
             nodes.insert(block.nodes.begin(), block.nodes.end());
     return nodes;
 }

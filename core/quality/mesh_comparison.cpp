@@ -153,10 +153,11 @@ class Comparison {
             }
             GroupMotion group{name, {}, 0, 0};
             std::vector<bool> is_in_b(static_cast<std::size_t>(b_.node_count()), false);
+            const std::vector<Index> nodes_of_a = a_.find_group_nodes(name).value();
             const std::vector<Index> nodes_of_b = b_.find_group_nodes(name).value();
             for (const Index node : nodes_of_b) is_in_b[node] = true;
             MotionSum sum;
-            for (const Index node : a_.find_group_nodes(name).value()) {
+            for (const Index node : nodes_of_a) {
                 if (twin_[node] >= 0 && is_in_b[twin_[node]])
                     add(sum, node);
                 else

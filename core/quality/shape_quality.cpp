@@ -110,33 +110,105 @@ double worst_mean_ratio(const SampleBasis& basis, const Eigen::MatrixX3d& x, con
 
 // ---------------------------------------------------------------------------------------------------------- simplices
 
-/// On a simplex W is the same everywhere, and J has the degree p - 1: it is computed at the lattice of that degree,
-/// multiplied by W^-1, and interpolated to the samples, of several elements at once.
+/// On a simplex W is the same everywhere, and J has the degree p - 1: it is computed in a basis of that degree,
+/// multiplied by W^-1, and evaluated at the samples, of several elements at once. Up to order 3 the basis is that of
+/// monomials in the steps of the samples' lattice, which is walked along lines; above, the Lagrange basis.
 struct SimplexBasis {
-    Eigen::MatrixXd derivatives;  ///< (directions · points of the lattice) × nodes, directions below each other
-    Eigen::MatrixXd samples;      ///< samples × points of the lattice
+    Eigen::MatrixXd derivatives;  ///< (directions · basis) × nodes, directions below each other
+    Eigen::MatrixXd samples;      ///< samples × basis; not where the lattice is walked
+    Eigen::MatrixXd nodes;        ///< reference coordinates, nodes × directions
 };
+
+constexpr int highest_order_walked = 3;
+
+/// 1, i, j, i², ij, j²; in 3D then k, ik, jk, k²: at a point of the lattice.
+Eigen::RowVectorXd monomials(int dim, double i, double j, double k) {
+    Eigen::RowVectorXd result(dim == 2 ? 6 : 10);
+    result.head(6) << 1.0, i, j, i * i, i * j, j * j;
+    if (dim == 3) result.tail(4) << k, i * k, j * k, k * k;
+    return result;
+}
+
+SimplexBasis make_simplex_basis(ElementType type) {
+    SimplexBasis basis;
+    const int dim = dimension(type.shape);
+    basis.nodes = reference_nodes(type).leftCols(dim);
+    const bool is_walked = type.order <= highest_order_walked;
+    const ElementType lower{type.shape, is_walked ? 2 : type.order - 1};
+    const Eigen::MatrixX3d lattice = reference_nodes(lower);
+    const Eigen::Index size = lattice.rows();
+    Eigen::MatrixXd to_basis = Eigen::MatrixXd::Identity(size, size);
+    if (is_walked) {
+        Eigen::MatrixXd values(size, size);
+        const Eigen::MatrixX3d steps = 3.0 * type.order * lattice;
+        for (Eigen::Index q = 0; q < size; ++q) values.row(q) = monomials(dim, steps(q, 0), steps(q, 1), steps(q, 2));
+        to_basis = values.inverse();
+    } else {
+        basis.samples = lagrange_basis(lower, sample_points(type)).values;
+    }
+    const BasisTable at_lattice = lagrange_basis(type, lattice);
+    basis.derivatives.resize(dim * size, node_count(type));
+    for (int k = 0; k < dim; ++k)
+        basis.derivatives.middleRows(k * size, size) = to_basis * at_lattice.gradients[static_cast<std::size_t>(k)];
+    return basis;
+}
 
 const SimplexBasis& simplex_basis(ElementType type) {
     static std::mutex mutex;
     static std::map<ElementType, SimplexBasis> cache;
     const std::lock_guard lock(mutex);
     auto [entry, is_new] = cache.try_emplace(type);
-    if (!is_new) return entry->second;
-    SimplexBasis& basis = entry->second;
-    const int dim = dimension(type.shape);
-    Eigen::MatrixX3d lattice = Eigen::MatrixX3d::Zero(1, 3);
-    if (type.order > 1) lattice = reference_nodes({type.shape, type.order - 1});
-    const BasisTable at_lattice = lagrange_basis(type, lattice);
-    basis.derivatives.resize(dim * lattice.rows(), node_count(type));
-    for (int k = 0; k < dim; ++k)
-        basis.derivatives.middleRows(k * lattice.rows(), lattice.rows()) =
-            at_lattice.gradients[static_cast<std::size_t>(k)];
-    if (type.order == 1)
-        basis.samples = Eigen::MatrixXd::Ones(1, 1);
+    if (is_new) entry->second = make_simplex_basis(type);
+    return entry->second;
+}
+
+/// Some T, rows behind each other in the columns, as power_of_ratio wants it: a value per row of t.
+template <int Dim, class At>
+auto determinant_of(const At& at) {
+    if constexpr (Dim == 2)
+        return at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0);
     else
-        basis.samples = lagrange_basis({type.shape, type.order - 1}, sample_points(type)).values;
-    return basis;
+        return at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) +
+               at(0, 1) * (at(1, 2) * at(2, 0) - at(1, 0) * at(2, 2)) +
+               at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
+}
+
+/// The least power_of_ratio of two elements at once on the lattice of n steps. t: monomials × (Dim² columns of each),
+/// the second element's behind the first's; the same twice for one.
+template <int Dim>
+Eigen::Array2d walk(const Eigen::Ref<const Eigen::MatrixXd>& t, int n) {
+    using Pair = Eigen::Array2d;
+    constexpr int squares = Dim * Dim;
+    std::array<std::array<Pair, squares>, Dim == 2 ? 6 : 10> a;
+    for (std::size_t m = 0; m < a.size(); ++m)
+        for (int c = 0; c < squares; ++c)
+            a[m][c] = Pair(t(static_cast<Eigen::Index>(m), c), t(static_cast<Eigen::Index>(m), squares + c));
+    Pair least = Pair::Constant(std::numeric_limits<double>::infinity());
+    const auto judge = [&least](const std::array<Pair, squares>& v) {
+        Pair norm = Pair::Constant(smallest_norm);
+        for (const Pair& value : v) norm += value * value;
+        const Pair det = determinant_of<Dim>([&v](int i, int j) -> const Pair& { return v[Dim * i + j]; });
+        const Pair power = power_of_ratio<Dim>(det, norm);
+        least = least.min(power);
+    };
+    std::array<Pair, squares> start, slope, v;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; j <= n - i; ++j) {
+            const double x = i, y = j;
+            for (int c = 0; c < squares; ++c)
+                start[c] = a[0][c] + x * (a[1][c] + x * a[3][c] + y * a[4][c]) + y * (a[2][c] + y * a[5][c]);
+            if constexpr (Dim == 2) {
+                judge(start);
+            } else {
+                for (int c = 0; c < squares; ++c) slope[c] = a[6][c] + x * a[7][c] + y * a[8][c];
+                for (int k = 0; k <= n - i - j; ++k) {
+                    const double z = k;
+                    for (int c = 0; c < squares; ++c) v[c] = start[c] + z * (slope[c] + z * a[9][c]);
+                    judge(v);
+                }
+            }
+        }
+    return least;
 }
 
 /// Worst mean ratios of simplices of one type, in portions.
@@ -145,95 +217,112 @@ class SimplexShapes {
   public:
     SimplexShapes(ElementType type, const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal)
         : basis_(simplex_basis(type)),
-          points_(basis_.derivatives.rows() / Dim),
+          order_(type.order),
+          size_(basis_.derivatives.rows() / Dim),
           topology_(topology),
           x_(x),
           ideal_(ideal),
           positions_(basis_.derivatives.cols(), portion * Dim),
           tangents_(basis_.derivatives.rows(), portion * Dim),
-          curved_(points_, portion * squares),
+          curved_(size_, (portion + 1) * squares),
           sampled_(basis_.samples.rows(), portion * squares) {}
 
     static constexpr Eigen::Index portion = 16;
 
     /// Elements first .. first + count - 1, count <= portion; worst: one per element.
     void compute(Index first, Eigen::Index count, double* worst) {
-        for (Eigen::Index b = 0; b < count; ++b) gather(first + static_cast<Index>(b), b * Dim);
-        tangents_.leftCols(count * Dim).noalias() = basis_.derivatives * positions_.leftCols(count * Dim);
-        Eigen::Index curved = 0;
         std::array<Eigen::Index, portion> places;
+        Eigen::Index curved = 0;
         for (Eigen::Index b = 0; b < count; ++b)
-            if (!is_done(first + static_cast<Index>(b), b * Dim, curved * squares, worst[b])) places[curved++] = b;
+            if (!is_done(first + static_cast<Index>(b), curved, worst[b])) places[curved++] = b;
         if (curved == 0) return;
+        tangents_.leftCols(curved * Dim).noalias() = basis_.derivatives * positions_.leftCols(curved * Dim);
+        for (Eigen::Index c = 0; c < curved; ++c) transform(c);
+        if (order_ <= highest_order_walked) {
+            // An odd one goes with itself.
+            curved_.middleCols(curved * squares, squares) = curved_.middleCols((curved - 1) * squares, squares);
+            for (Eigen::Index c = 0; c < curved; c += 2) {
+                const Eigen::Array2d powers = walk<Dim>(curved_.middleCols(c * squares, 2 * squares), 3 * order_);
+                worst[places[c]] = mean_ratio<Dim>(powers[0]);
+                if (c + 1 < curved) worst[places[c + 1]] = mean_ratio<Dim>(powers[1]);
+            }
+            return;
+        }
         sampled_.leftCols(curved * squares).noalias() = basis_.samples * curved_.leftCols(curved * squares);
         for (Eigen::Index c = 0; c < curved; ++c)
-            worst[places[static_cast<std::size_t>(c)]] =
-                mean_ratio<Dim>(powers(sampled_.middleCols(c * squares, squares)).minCoeff());
+            worst[places[c]] = mean_ratio<Dim>(least_power(sampled_.middleCols(c * squares, squares)));
     }
 
   private:
     using Matrix = Eigen::Matrix<double, Dim, Dim>;
     static constexpr Eigen::Index squares = Dim * Dim;
 
-    void gather(Index element, Eigen::Index column) {
+    /// Puts the element's positions and W^-1 to the given place. Where T is the same everywhere up to rounding, or
+    /// there is no ideal, the ratio is known.
+    bool is_done(Index element, Eigen::Index place, double& ratio) {
         const auto nodes = topology_.element_nodes(element);
+        auto x = positions_.middleCols<Dim>(place * Dim);
         for (std::size_t i = 0; i < nodes.size(); ++i)
-            for (int d = 0; d < Dim; ++d)
-                positions_(static_cast<Eigen::Index>(i), column + d) = x_(nodes[i], d) - x_(nodes[0], d);
-    }
-
-    /// Writes T at the lattice to curved_. Where it is the same everywhere up to rounding, or there is no ideal, the
-    /// ratio is known.
-    bool is_done(Index element, Eigen::Index from, Eigen::Index to, double& ratio) {
-        const auto nodes = topology_.element_nodes(element);
+            for (int d = 0; d < Dim; ++d) x(static_cast<Eigen::Index>(i), d) = x_(nodes[i], d) - x_(nodes[0], d);
         Matrix w;
         for (int k = 0; k < Dim; ++k)
             for (int d = 0; d < Dim; ++d)
                 w(d, k) = ideal_(nodes[static_cast<std::size_t>(k) + 1], d) - ideal_(nodes[0], d);
-        const double ideal_det = w.determinant();
-        if (!(std::abs(ideal_det) > 0.0)) {
+        if (!(std::abs(w.determinant()) > 0.0)) {
             ratio = 0.0;
             return true;
         }
-        const Matrix inverse = w.inverse();
-        for (int d = 0; d < Dim; ++d)
-            for (int j = 0; j < Dim; ++j) {
-                auto column = curved_.col(to + Dim * d + j);
-                column = inverse(0, j) * tangents_.col(from + d).head(points_);
-                for (int k = 1; k < Dim; ++k)
-                    column += inverse(k, j) * tangents_.col(from + d).segment(k * points_, points_);
+        Matrix& inverse = inverses_[static_cast<std::size_t>(place)];
+        inverse = w.inverse();
+        const Matrix edges = x.template middleRows<Dim>(1);
+        double bend = 0.0;  // largest distance in a coordinate from the straight-sided element
+        for (Eigen::Index i = Dim + 1; i < x.rows(); ++i)
+            for (int d = 0; d < Dim; ++d) {
+                double straight = 0.0;
+                for (int k = 0; k < Dim; ++k) straight += basis_.nodes(i, k) * edges(k, d);
+                bend = std::max(bend, std::abs(x(i, d) - straight));
             }
-        const auto all = curved_.middleCols(to, squares);
-        constexpr double rounding = 1e-13;
-        const double size = all.cwiseAbs().maxCoeff();
-        if (!((all.rowwise() - all.row(0)).cwiseAbs().maxCoeff() <= rounding * size)) return false;
-        ratio = mean_ratio<Dim>(powers(all.topRows(1)).value());
+        const Matrix t = edges.transpose() * inverse;
+        constexpr double rounding = 1e-12;
+        // A derivative is less than some 4 p² times what is added to the nodes.
+        const double change = 4.0 * order_ * order_ * bend * inverse.norm();
+        if (!(change <= rounding * t.cwiseAbs().maxCoeff())) return false;
+        const Eigen::Array<double, 1, 1> det(t.determinant()), norm(std::max(t.squaredNorm(), smallest_norm));
+        ratio = mean_ratio<Dim>(power_of_ratio<Dim>(det, norm).value());
         return true;
     }
 
-    /// One row per T, its rows behind each other.
+    /// Writes T of the element in a place to curved_.
+    void transform(Eigen::Index place) {
+        const Matrix& inverse = inverses_[static_cast<std::size_t>(place)];
+        for (int d = 0; d < Dim; ++d) {
+            const auto tangent = tangents_.col(place * Dim + d);
+            for (int j = 0; j < Dim; ++j) {
+                auto column = curved_.col(place * squares + Dim * d + j);
+                column = inverse(0, j) * tangent.head(size_);
+                for (int k = 1; k < Dim; ++k) column += inverse(k, j) * tangent.segment(k * size_, size_);
+            }
+        }
+    }
+
+    /// t: samples × Dim².
     template <class Matrices>
-    static auto powers(const Matrices& t) {
-        const auto at = [&](int i, int j) { return t.col(Dim * i + j).array(); };
-        Eigen::ArrayXd norm = t.rowwise().squaredNorm().array().max(smallest_norm);
-        Eigen::ArrayXd det;
-        if constexpr (Dim == 2)
-            det = at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0);
-        else
-            det = at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) +
-                  at(0, 1) * (at(1, 2) * at(2, 0) - at(1, 0) * at(2, 2)) +
-                  at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
-        return Eigen::ArrayXd(power_of_ratio<Dim>(det, norm));
+    static double least_power(const Matrices& t) {
+        const Eigen::ArrayXd norm = t.rowwise().squaredNorm().array().max(smallest_norm);
+        const Eigen::ArrayXd det = determinant_of<Dim>([&t](int i, int j) { return t.col(Dim * i + j).array(); });
+        return power_of_ratio<Dim>(det, norm).minCoeff();
     }
 
     const SimplexBasis& basis_;
-    const Eigen::Index points_;  ///< of the lattice
+    const int order_;
+    const Eigen::Index size_;  ///< of the basis
     const MeshTopology& topology_;
     const Coordinates &x_, &ideal_;
-    Eigen::MatrixXd positions_;  ///< nodes × (elements · Dim), relative to the first node
-    Eigen::MatrixXd tangents_;   ///< (directions · points) × (elements · Dim)
-    Eigen::MatrixXd curved_;     ///< T of curved elements: points × (elements · Dim²)
-    Eigen::MatrixXd sampled_;    ///< the same at the samples
+    std::array<Matrix, portion> inverses_;  ///< W^-1
+    Eigen::MatrixXd positions_;             ///< nodes × (elements · Dim), relative to the first node
+    Eigen::MatrixXd tangents_;              ///< (directions · basis) × (elements · Dim)
+    Eigen::MatrixXd curved_;                ///< T: basis × (elements · Dim²)
+    Eigen::MatrixXd sampled_;               ///< T at the samples
 };
 
 /// The elements from begin to end, which are all of a type.

@@ -104,6 +104,10 @@ std::string quality_section(const RunReport& report, const ReportPictures& pictu
     if (b.reversed > 0)
         html += table_row("Elements numbered against their neighbours (reversed)", count_text(b.reversed),
                           count_text(a.reversed));
+    html += table_row("Valid as a whole", to_string(before.globally_valid), to_string(after.globally_valid));
+    if (before.crossing_count + after.crossing_count > 0)
+        html += table_row("Pairs of boundary facets that cross", count_text(before.crossing_count),
+                          count_text(after.crossing_count));
     html += table_row("Scaled Jacobian, least", number_text(b.min), number_text(a.min));
     html += table_row("Scaled Jacobian, mean", number_text(b.mean), number_text(a.mean));
     html += table_row("Scaled Jacobian, greatest", number_text(b.max), number_text(a.max));
@@ -111,6 +115,8 @@ std::string quality_section(const RunReport& report, const ReportPictures& pictu
                       number_text(after.shape.min));
     html += table_row("Shape, mean of it", number_text(before.shape.mean), number_text(after.shape.mean));
     html += "</tbody></table>\n";
+    if (after.globally_valid != GlobalValidity::yes)
+        html += fmt::format("<p class=\"note\">The result as a whole: {}</p>\n", escaped(after.global_reason));
     const Index highest = std::max(before.histogram.highest(), after.histogram.highest());
     if (highest > 0)
         html += fmt::format(
@@ -309,8 +315,6 @@ std::string input_section(const RunReport& report) {
     for (const auto& [name, version] : report.versions)
         versions += fmt::format("{}{} {}", versions.empty() ? "" : ", ", escaped(name), escaped(version));
     html += property("Versions", versions);
-    if (!report.made_by.empty())
-        html += property("Made by", "<span class=\"mono\">" + escaped(report.made_by) + "</span>");
     html += "</tbody></table>\n";
     if (!report.input.steps.empty()) {
         html += "<p>Before it was untangled, this was done to the mesh of the file (lines of a session):</p>\n<pre>";
@@ -322,6 +326,8 @@ std::string input_section(const RunReport& report) {
 
 std::string run_section(const RunReport& report) {
     std::string html = fmt::format("<section id=\"run\">\n<h2>This run</h2>\n<p>Written {}.</p>\n", report.written);
+    if (!report.made_by.empty())
+        html += fmt::format("<p>Made by <span class=\"mono\">{}</span></p>\n", escaped(report.made_by));
     for (const std::string& remark : report.remarks) html += fmt::format("<p>{}</p>\n", escaped(remark));
     html += "<table><tbody>";
     for (const auto& [name, seconds] : report.timings)

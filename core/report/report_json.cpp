@@ -35,6 +35,10 @@ Json quality_json(const ReportQuality& quality) {
     const ReportHistogram& histogram = quality.histogram;
     return {{"scaled_jacobian", summary_json(quality.scaled_jacobian)},
             {"shape", {{"min", quality.shape.min}, {"mean", quality.shape.mean}}},
+            {"globally_valid", to_string(quality.globally_valid)},
+            {"globally_valid_reason", quality.global_reason},
+            {"crossing_elements", quality.crossings},
+            {"crossing_facet_pairs", quality.crossing_count},
             {"histogram",
              {{"lower", 0.0},
               {"upper", 1.0},
@@ -166,8 +170,6 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
         {"input", input_json(report)},
         {"method", {{"name", report.method}, {"parameters", parameters}, {"command", or_null(report.command)}}},
         {"versions", versions},
-        {"made_by",
-         {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
         {"before", quality_json(report.before)},
         {"after", quality_json(report.after)},
         {"outcome", outcome_json(report)},
@@ -194,7 +196,12 @@ std::string to_json(const RunReport& report, const ReportPictures& pictures) {
           {"proved_impossible", report.impossible},
           {"not_valid", array_of(report.not_valid, unproved_json)}}},
         {"pictures", {{"count", pictures.png.size()}, {"note", or_null(pictures.note)}}},
-        {"run", {{"written", report.written}, {"remarks", report.remarks}, {"timings", timings}}}};
+        {"run",
+         {{"written", report.written},
+          {"made_by",
+           {{"program", "Curvewright"}, {"version", versions["Curvewright"]}, {"command", or_null(report.made_by)}}},
+          {"remarks", report.remarks},
+          {"timings", timings}}}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

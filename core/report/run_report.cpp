@@ -49,8 +49,31 @@ void compare_positions(RunReport& report, const CurvedMesh& before, const Curved
 }
 
 ReportQuality describe_quality(const QualityReport& quality, const CurvedMesh& mesh, const Coordinates& ideal,
-                               const TaskContext& context) {
-    return {quality.summary, assess_shape(mesh, ideal, context), make_report_histogram(quality)};
+                               const GlobalValidityReport& global, const TaskContext& context) {
+    ReportQuality result{quality.summary,
+                         assess_shape(mesh, ideal, context),
+                         make_report_histogram(quality),
+                         global.answer,
+                         global.reason,
+                         {},
+                         global.boundary.crossing_count};
+    const MeshTopology& topology = mesh.topology();
+    for (const FacetPair& pair : global.boundary.crossings)
+        result.crossings.push_back(
+            {topology.element_tag(pair.a.element).value, topology.element_tag(pair.b.element).value});
+    return result;
+}
+
+/// Before and after. A boundary that stayed is looked at once.
+void describe_qualities(RunReport& report, const ReportSource& source, const TaskContext& context) {
+    const auto before = assess_global_validity(source.before, source.quality_before, {}, context);
+    const bool has_stayed =
+        has_same_boundary(source.before.topology(), source.before.coordinates(), source.after.coordinates());
+    const auto after = assess_global_validity(source.after, source.quality_after, {}, context,
+                                              has_stayed ? &before.boundary : nullptr);
+    const Coordinates& ideal = source.before.coordinates();
+    report.before = describe_quality(source.quality_before, source.before, ideal, before, context);
+    report.after = describe_quality(source.quality_after, source.after, ideal, after, context);
 }
 
 void compare_elements(RunReport& report, const ReportSource& source) {
@@ -157,8 +180,7 @@ RunReport collect_report(const ReportSource& source, const TaskContext& context)
     report.made_by = source.made_by;
     report.versions = program_versions();
 
-    report.before = describe_quality(source.quality_before, source.before, source.before.coordinates(), context);
-    report.after = describe_quality(source.quality_after, source.after, source.before.coordinates(), context);
+    describe_qualities(report, source, context);
     compare_positions(report, source.before, source.after);
     report.groups = group_statistics(source.before.topology(), source.quality_before, source.quality_after);
     compare_elements(report, source);

@@ -8,6 +8,7 @@
 
 #include "core/base/task.h"
 #include "core/mesh/curved_mesh.h"
+#include "core/quality/global_validity.h"
 #include "core/quality/quality.h"
 #include "core/quality/shape_quality.h"
 #include "core/report/convergence_log.h"
@@ -39,6 +40,10 @@ struct ReportQuality {
     QualitySummary scaled_jacobian;
     ShapeSummary shape;
     ReportHistogram histogram;
+    GlobalValidity globally_valid = GlobalValidity::undecided;
+    std::string global_reason;                           ///< one sentence
+    std::vector<std::array<std::int64_t, 2>> crossings;  ///< tags of elements whose facets on the boundary cross
+    Index crossing_count = 0;                            ///< all such pairs; some may not be listed
 };
 
 /// The elements of a physical group; of a group on the boundary, those that a cell of it is part of.

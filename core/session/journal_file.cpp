@@ -16,6 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 #include "core/session/session_file.h"
 
 namespace curvewright {
@@ -145,6 +146,7 @@ class Scanner {
             throw InvalidInput("the last record breaks off.");
         const std::string text = take(header_.text_size, header_.text_check);
         if (with_data) data_ = take(header_.data_size, header_.data_check);
+        if (is_json_too_deep(text)) throw InvalidInput("a record is damaged.");
         json_ = Json::parse(text, nullptr, false);
         if (!json_.is_object()) throw InvalidInput("a record is damaged.");
     }

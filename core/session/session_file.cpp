@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 #include "core/io/atomic_file.h"
 
 namespace curvewright {
@@ -394,6 +395,9 @@ std::string to_json_line(const Action& action) {
 }
 
 Action parse_action(std::string_view line, const std::string& file, long line_number) {
+    if (is_json_too_deep(line))
+        throw InvalidInput(file, line_number,
+                           fmt::format("lists stand in each other more than {} deep.", deepest_json));
     Json json;
     try {
         json = Json::parse(line);

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/error.h"
+#include "core/base/json_depth.h"
 
 namespace curvewright {
 namespace {
@@ -24,6 +25,7 @@ class TraceReader {
         : mesh_(mesh), topology_(mesh.topology()), observer_(observer) {}
 
     void read(const std::string& line) {
+        if (is_json_too_deep(line)) fail(fmt::format("lists stand in each other more than {} deep", deepest_json));
         const Json json = Json::parse(line, nullptr, false);
         if (json.is_discarded() || !json.is_object()) fail("this is no JSON object");
         json_ = &json;

@@ -339,15 +339,6 @@ class UnsignedAngleUntangler {
 
 }  // namespace
 
-UnsignedAngleOptions UnsignedAngleOptions::literal() {
-    UnsignedAngleOptions options;
-    options.gradient = AngleGradient::central_differences;
-    options.first_steps = {0.01};
-    options.tries_straight_edge = options.moves_face_nodes = options.is_guarded = false;
-    options.target = 0.0;
-    return options;
-}
-
 UntangleResult untangle_unsigned_angles(const CurvedMesh& mesh, const UnsignedAngleOptions& options,
                                         UntangleObserver* observer, const TaskContext& context) {
     check(mesh, options);

@@ -54,18 +54,6 @@ LocalNeighbours local_neighbours(ElementType type, NeighbourKind kind) {
 
 }  // namespace
 
-const char* to_string(NeighbourKind kind) {
-    switch (kind) {
-        case NeighbourKind::all:
-            return "all";
-        case NeighbourKind::high_order:
-            return "high-order";
-        case NeighbourKind::edge_connected:
-            return "edge";
-    }
-    return "";
-}
-
 NeighbourSets find_neighbours(const MeshTopology& topology, std::vector<Index> centers, NeighbourKind kind,
                               const TaskContext& context) {
     if (kind == NeighbourKind::high_order && topology.order() < 2)

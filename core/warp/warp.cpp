@@ -19,20 +19,6 @@
 
 namespace curvewright {
 
-const char* to_string(Weighting weighting) {
-    switch (weighting) {
-        case Weighting::convex:
-            return "convex";
-        case Weighting::affine:
-            return "affine";
-        case Weighting::elastic:
-            return "elastic";
-        case Weighting::custom:
-            return "custom";
-    }
-    return "";
-}
-
 namespace {
 
 void check(const CurvedMesh& mesh, const WarpOptions& options) {

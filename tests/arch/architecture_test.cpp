@@ -50,6 +50,7 @@ const std::map<std::string, std::set<std::string>> allowed = {
     {"ui/panels", {"core", "ui/document", "ui/jobs", "ui/palette"}},
     {"ui/main_window", {"core", "ui/document", "ui/jobs", "ui/tools", "ui/panels", "ui/palette", "ui/scene"}},
     {"app/cli", {"core", "ui/scene", "ui/palette", "app/cli"}},
+    {"app/vtk_reader", {"core/io"}},
     {"app/desktop", {"core", "ui/main_window", "ui/document", "ui/panels", "ui/scene"}},
 };
 

@@ -502,6 +502,7 @@ class StepPanelTest : public QObject {
         StepUnderTest test("signed");
         MeshView& view = test.window->view();
         const auto unit = [&] { return view.units_per_pixel(Eigen::RowVector3d(0.5, 0.5, 0.0)); };
+        QTest::qWait(300);  // until notices have their place
         const double before = unit();
         QVERIFY(test.go_to(test.busy_patch().first + 2));
         QTest::qWait(300);
@@ -515,7 +516,7 @@ class StepPanelTest : public QObject {
         const Recording& recording = test.recording();
         const RecordedPatch& last = recording.patches().back();
         QVERIFY(test.go_to(last.first));
-        QTest::qWait(400);
+        QTest::qWait(1000);
         const auto& elements = test.player().shown().patch->elements;
         for (const Index element : elements)
             for (const Index node : recording.mesh().topology().element_nodes(element)) {

@@ -15,7 +15,7 @@ run(0 ${DPKG_DEB} --info ${package})
 expect("${output}" "Package: curvewright\n")
 expect("${output}" "Depends: [^\n]*qt6-qpa-plugins[^\n]*libqt6widgets6[^\n]*libvtk9")
 run(0 ${DPKG_DEB} --extract ${package} ${WORK}/root)
-foreach(file bin/curvewright bin/curvewright-cli share/man/man1/curvewright.1.gz share/man/man1/curvewright-cli.1.gz
+foreach(file bin/curvewright bin/curvewright-cli libexec/curvewright/curvewright-vtk-reader share/man/man1/curvewright.1.gz share/man/man1/curvewright-cli.1.gz
              share/applications/curvewright.desktop share/mime/packages/curvewright.xml
              share/icons/hicolor/scalable/apps/curvewright.svg share/doc/curvewright/copyright
              share/curvewright/sample_meshes/MANIFEST share/curvewright/sample_meshes/annulus/annulus.msh)
@@ -25,6 +25,15 @@ foreach(file bin/curvewright bin/curvewright-cli share/man/man1/curvewright.1.gz
 endforeach()
 run(0 ${CMAKE_COMMAND} -E env --unset=DISPLAY ${WORK}/root/usr/bin/curvewright-cli quality ${SAMPLE} --json)
 expect("${output}" "\"invalid\": 0")
+# A VTK file is read by the program in libexec, wherever the package lies.
+set(cli ${WORK}/root/usr/bin/curvewright-cli)
+run(0 ${cli} convert ${SAMPLE} ${WORK}/sample.vtu)
+run(0 ${cli} quality ${WORK}/sample.vtu --json)
+expect("${output}" "\"invalid\": 0")
+file(RENAME ${WORK}/root/usr/libexec ${WORK}/root/usr/elsewhere)
+run(1 ${cli} quality ${WORK}/sample.vtu)
+expect("${errors}" "sample\\.vtu: [^\n]*curvewright-vtk-reader[^\n]*\\.\n$")
+file(RENAME ${WORK}/root/usr/elsewhere ${WORK}/root/usr/libexec)
 # The types of files that the desktop entry names are those that the other file describes.
 file(READ ${WORK}/root/usr/share/applications/curvewright.desktop entry)
 file(READ ${WORK}/root/usr/share/mime/packages/curvewright.xml types)
@@ -43,6 +52,7 @@ file(ARCHIVE_EXTRACT INPUT ${tarball} DESTINATION ${WORK}/tarball)
 file(GLOB_RECURSE files RELATIVE ${WORK}/tarball ${WORK}/tarball/*)
 expect("${files}" "bin/curvewright-cli")
 expect("${files}" "man1/curvewright-cli.1.gz")
+expect("${files}" "libexec/curvewright/curvewright-vtk-reader")
 if(files MATCHES "bin/curvewright(;|$)|\\.desktop|sample_meshes|\\.a(;|$)")
     message(FATAL_ERROR "In the tarball, but not of the command line: ${files}")
 endif()
@@ -50,3 +60,5 @@ file(GLOB_RECURSE program ${WORK}/tarball/*/curvewright-cli ${WORK}/tarball/bin/
 list(GET program 0 program)
 run(0 ${program} --version)
 expect("${output}" "${VERSION}")
+run(0 ${program} quality ${WORK}/sample.vtu --json)
+expect("${output}" "\"invalid\": 0")

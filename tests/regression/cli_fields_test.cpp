@@ -68,11 +68,15 @@ TEST_F(FieldsOnTheCommandLine, EveryCommandKeepsThem) {
     for (const FieldArray& field : read_mesh(folder / "mended.msh").fields) EXPECT_NE(field.name, "Displacement");
     write(folder / "session.json", "{\"action\":\"open\",\"mesh\":\"in.vtu\"}\n{\"action\":\"flip\"}\n");
     expect_kept(run({"replay", folder / "session.json", "-o", folder / "replayed.msh"}, "replayed.msh"));
-    // Other nodes: only what belongs to elements is still true.
+    // Other nodes: arrays on nodes are interpolated.
     const ProcessResult elevated = cli({"elevate", in, "--order", "4", "-o", folder / "p4.vtu"});
-    EXPECT_NE(elevated.errors.find("Left out, because the nodes are others: pressure, velocity."), std::string::npos)
-        << elevated.errors;
+    EXPECT_EQ(elevated.status, 0) << elevated.errors;
     expect_kept(folder / "p4.vtu", false);
+    const ReadResult p4 = read_mesh(folder / "p4.vtu");
+    const auto pressure = std::find_if(p4.fields.begin(), p4.fields.end(),
+                                       [](const FieldArray& field) { return field.name == "pressure"; });
+    ASSERT_NE(pressure, p4.fields.end());
+    EXPECT_EQ(pressure->size(), static_cast<std::size_t>(p4.mesh.topology().node_count()));
 }
 
 TEST_F(FieldsOnTheCommandLine, InfoListsThem) {

@@ -235,7 +235,7 @@ TEST_F(CommandLine, RenderLooksFromWhereItIsTold) {
     EXPECT_EQ(draw({"--view", "top", "--cut", "z", "--zoom", "0,0,1.935,1"}),
               draw({"--view", "top", "--cut", "z", "--zoom", "0,0,1.935,1", "--clip-at", "0.5"}));
     EXPECT_NE(draw({"--view", "back", "--cut", "y"}), draw({"--view", "back"}));
-    expect_bad_input({"render", screw, "-o", folder / "side.png", "--zoom", "0,0,1"}, "four numbers");
+    expect_bad_input({"render", screw, "-o", folder / "side.png", "--zoom", "0,0,1", "--quiet"}, "four numbers");
 }
 
 TEST_F(CommandLine, RenderWithAPalette) {

@@ -140,10 +140,8 @@ void MeshPanel::show_global(const GlobalValidityReport* report, bool is_pending,
         global_->setText(global_text(*report));
         const bool is_known = report->answer != GlobalValidity::undecided;
         set_tone(global_, !is_known ? "warning" : report->answer == GlobalValidity::yes ? "good" : "alarm");
-        global_->setToolTip(
-            report->answer == GlobalValidity::yes
-                ? tr("All elements are valid, their sides match, and the boundary does not cross itself.")
-                : QString::fromStdString(report->reason));
+        global_->setToolTip(report->answer == GlobalValidity::yes ? tr("No two elements overlap: this is proved.")
+                                                                  : QString::fromStdString(report->reason));
     } else if (is_pending) {
         global_->setText(progress > 0.0 ? tr("looking for overlaps, %1 %").arg(static_cast<int>(100.0 * progress))
                                         : tr("looking for overlaps…"));

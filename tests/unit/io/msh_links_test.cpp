@@ -129,7 +129,7 @@ TEST(Periodic, pairs_of_strangers_are_passed_over_with_a_note) {
 }
 
 TEST(Periodic, follows_a_change_of_order) {
-    for (const std::string& name : {partitioned_41, std::string("square_periodic_partitioned_2.2.msh")}) {
+    for (const std::string& name : {partitioned_41, partitioned_22}) {
         const CurvedMesh linear = read_mesh(test_data(name)).mesh;
         CurvedMesh mesh = linear;
         for (const int order : {3, 2, 4, 1}) {
@@ -138,17 +138,29 @@ TEST(Periodic, follows_a_change_of_order) {
             ASSERT_EQ(data.periodic.size(), linear.topology().data().periodic.size());
             for (const PeriodicLink& link : data.periodic) {
                 // In 4.1 the cells lie on parts of the periodic curve, in 2.2 on the curve itself.
-                const bool has_cells = name == partitioned_22 && link.dimension == 1;
-                EXPECT_EQ(link.nodes.size(), link.dimension == 0 ? 1u : has_cells ? 2u * order + 1u : 3u) << name;
+                EXPECT_EQ(link.nodes.size(), link.dimension == 0 ? 1u : 2u * static_cast<unsigned>(order) + 1u) << name;
                 for (const auto& [node, master] : link.nodes) {
                     const Eigen::RowVector3d shift = mesh.coordinates().row(node) - mesh.coordinates().row(master);
                     EXPECT_LT((shift - Eigen::RowVector3d(1, 0, 0)).norm(), 1e-11) << name << " " << order;
                 }
             }
-            EXPECT_EQ(periodic_gaps(mesh.topology()).empty(), name == partitioned_22);
+            EXPECT_TRUE(periodic_gaps(mesh.topology()).empty());
         }
         expect_same_mesh(linear, mesh, name);
     }
+}
+
+TEST(Periodic, nodes_without_counterpart_are_told) {
+    const CurvedMesh mesh = read_mesh(test_data(partitioned_22)).mesh;
+    MeshData data = mesh.topology().data();
+    data.periodic.front().nodes.pop_back();
+    ASSERT_EQ(periodic_gaps(MeshTopology(data)).size(), 1u);
+    EXPECT_NE(periodic_gaps(MeshTopology(data)).front().find("1 nodes of periodic entity 2 of dimension 1"),
+              std::string::npos);
+    data.periodic.front().tag = 77;
+    EXPECT_NE(periodic_gaps(MeshTopology(data)).front().find("has no cells of its own"), std::string::npos);
+    data.periodic.front().nodes.emplace_back(0, 12345);
+    EXPECT_THROW(MeshTopology{data}, InvalidInput);
 }
 
 TEST(Periodic, follows_new_numbers_of_nodes) {
@@ -194,6 +206,7 @@ TEST(Partitions, are_kept_in_22_and_go_between_the_versions) {
     EXPECT_TRUE(read.notes.empty());
     const auto elements = std::get<3>(partitioning_of(read.mesh));
     ASSERT_EQ(elements.size(), 22u);
+    EXPECT_EQ(std::get<0>(partitioning_of(read.mesh)), 2);
     EXPECT_EQ(elements[8], std::tuple(std::int64_t{9}, 2, std::vector<int>{2, -1}));
     EXPECT_EQ(partitioning_of(read.mesh), partitioning_of(rewritten(folder, read.mesh, MeshFormat::msh2).mesh));
     EXPECT_EQ(partitioning_of(read.mesh), partitioning_of(rewritten(folder, read.mesh, MeshFormat::vtu).mesh));

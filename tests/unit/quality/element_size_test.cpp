@@ -58,7 +58,7 @@ TEST(ElementSize, SurfacesAndPyramids) {
     Coordinates x = quad_mesh(2, 2).coordinates();
     x.col(2) = x.col(0);
     EXPECT_NEAR(total(quad_mesh(2, 2).with_coordinates(x)), std::numbers::sqrt2, 1e-12);
-    EXPECT_THROW(element_sizes(pyramid_mesh(1)), Unsupported);
+    for (const double size : element_sizes(pyramid_mesh(1))) EXPECT_TRUE(std::isnan(size));
     std::stop_source stopped;
     stopped.request_stop();
     EXPECT_THROW(element_sizes(square_mesh(2, 2), {stopped.get_token(), {}}), Cancelled);

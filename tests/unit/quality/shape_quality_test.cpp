@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <Eigen/LU>
 
+#include "core/basis/lagrange.h"
 #include "tests/support/mesh_factory.h"
 
 namespace curvewright {
@@ -54,6 +56,58 @@ TEST(ShapeQuality, TheIdealOfAQuadrilateralVariesOverTheElement) {
     EXPECT_NEAR(assess_shape(mesh, trapezoid).min, 4.0 / 5.25, 1e-12);
     trapezoid.row(2) << 0.3, 0.1, 0;  // folded at its third corner
     EXPECT_EQ(assess_shape(mesh, trapezoid).min, 0.0);
+}
+
+/// The worst of the definition at the samples, from the shape functions' own derivatives.
+double by_definition(const CurvedMesh& mesh, const CurvedMesh& ideal, Index element) {
+    const ElementType type = mesh.topology().element_type(element);
+    const int dim = dimension(type.shape);
+    const int n = 3 * type.order;
+    std::vector<Eigen::RowVector3d> lattice;
+    for (int i = 0; i <= n; ++i)
+        for (int j = 0; i + j <= n; ++j)
+            for (int k = 0; i + j + k <= (dim == 3 ? n : i + j); ++k)
+                lattice.push_back(Eigen::RowVector3d(i, j, k) / n);
+    Eigen::MatrixX3d points(static_cast<Eigen::Index>(lattice.size()), 3);
+    for (std::size_t i = 0; i < lattice.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = lattice[i];
+    const BasisTable basis = lagrange_basis(type, points), straight = lagrange_basis({type.shape, 1}, points);
+    const Eigen::MatrixX3d x = mesh.element_coordinates(element), w = ideal.element_coordinates(element);
+    double worst = 2.0;
+    for (Eigen::Index q = 0; q < points.rows(); ++q) {
+        Eigen::MatrixXd of_element(dim, dim), of_ideal(dim, dim);
+        for (int k = 0; k < dim; ++k) {
+            of_element.col(k) = (basis.gradients[k].row(q) * x).head(dim).transpose();
+            of_ideal.col(k) = (straight.gradients[k].row(q) * w.topRows(dim + 1)).head(dim).transpose();
+        }
+        const Eigen::MatrixXd t = of_element * of_ideal.inverse();
+        const double det = t.determinant(), power = std::pow(std::abs(det), 2.0 / dim);
+        worst = std::min(worst, std::copysign(dim * power / t.squaredNorm(), det));
+    }
+    return worst;
+}
+
+TEST(ShapeQuality, IsTheWorstOfTheSamplesOfEverySimplex) {
+    std::mt19937 random(3);
+    for (const bool is_3d : {false, true})
+        for (int order = 1; order <= (is_3d ? 4 : 5); ++order)
+            for (const double stretch : {1.0, 1e-4}) {
+                SCOPED_TRACE(std::to_string(order) + (is_3d ? " 3D " : " 2D ") + std::to_string(stretch));
+                const CurvedMesh linear = is_3d ? cube_mesh(2, 1) : square_mesh(3, 1);
+                const CurvedMesh straight = testing::with_shaken_corners(linear, 0.1, order, random);
+                Coordinates x = testing::shaken(straight, 0.1 / order, random).coordinates();
+                // Some elements stay straight.
+                for (Index element = 0; element < straight.topology().element_count(); element += 3)
+                    for (const Index node : straight.topology().element_nodes(element))
+                        x.row(node) = straight.coordinates().row(node);
+                x.col(1) *= stretch;
+                Coordinates w = straight.coordinates();
+                w.col(1) *= stretch;
+                x.col(0).array() += 7.0;
+                const CurvedMesh mesh = straight.with_coordinates(x), ideal = straight.with_coordinates(w);
+                const std::vector<double> shapes = element_shapes(mesh, ideal.coordinates());
+                for (Index element = 0; element < mesh.topology().element_count(); ++element)
+                    EXPECT_NEAR(shapes[element], by_definition(mesh, ideal, element), 1e-9);
+            }
 }
 
 TEST(ShapeQuality, FlatIdealIsSimilarToNothing) {

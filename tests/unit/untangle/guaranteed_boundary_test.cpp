@@ -163,7 +163,7 @@ CurvedMesh tetrahedron(const auto& change) {
 }
 
 std::optional<Impossibility> impossibility_of(const CurvedMesh& mesh, const std::function<bool(Index)>& may_move) {
-    const double sign = assess_quality(tetrahedron([](Eigen::MatrixX3d&) {})).orientation_sign;
+    const OrientationSigns sign = assess_quality(tetrahedron([](Eigen::MatrixX3d&) {})).orientation_sign;
     return find_impossibility(mesh, 0, sign, elements_of_nodes(mesh.topology()), may_move);
 }
 
@@ -194,7 +194,7 @@ TEST(Unmendable, ASingleNodeCannotBeInTwoPlacesAtOnce) {
             for (Eigen::Index i = 5; i < x.rows(); ++i)
                 for (int d = 0; d < 3; ++d) x(i, d) += shift(random);
         });
-        const double sign = assess_quality(straight).orientation_sign;
+        const OrientationSigns sign = assess_quality(straight).orientation_sign;
         QualityOptions options;
         options.orientation_sign = sign;
         const QualityReport report = assess_quality(mesh, options);

@@ -138,10 +138,13 @@ TEST(GuaranteedSteps, AShapeFloorHoldsTheWorstShapeUp) {
         const double u = 4.0 * x(node, 0) - std::floor(4.0 * x(node, 0));
         if (x(node, 1) == 0.0) x(node, 1) = 0.3 * u * (1.0 - u);
     }
+    GuaranteedOptions mending;
+    mending.target = 1.0;
+    mending.shape_weight = 10.0;
+    const CurvedMesh mesh =
+        straight.with_coordinates(untangle_guaranteed(straight.with_coordinates(x), mending).coordinates);
     ImproveOptions options;
     options.target = 1.0;
-    options.shape_weight = 10.0;
-    const CurvedMesh mesh = straight.with_coordinates(improve(straight.with_coordinates(x), options).coordinates);
     const auto worst_shape = [&](const Coordinates& of) {
         return assess_shape(mesh.with_coordinates(of), mesh.coordinates()).min;
     };

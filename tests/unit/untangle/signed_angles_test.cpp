@@ -117,7 +117,8 @@ TEST(SignedAngles, WorsePassIsTakenBackWhenAsked) {
     // mesh that is not valid is changed.
     CurvedMesh mesh = square_mesh(4, 2);
     Coordinates x = mesh.coordinates();
-    for (const Index node : mesh.topology().find_group_nodes("bottom").value())
+    const std::vector<Index> bottom = mesh.topology().find_group_nodes("bottom").value();
+    for (const Index node : bottom)
         if (x(node, 0) == 0.125) x(node, 1) += 0.3;
     x.col(1) *= 1e-2;
     mesh = mesh.with_coordinates(x);

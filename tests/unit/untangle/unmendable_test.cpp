@@ -57,7 +57,7 @@ CurvedMesh tangled(const CurvedMesh& mesh, double amplitude, Random& random) {
 
 TEST(Unmendable, NothingThatHasAValidPositionIsCalledImpossible) {
     int looked_at = 0;
-    for (unsigned seed = 0; seed < 300; ++seed) {
+    for (unsigned seed = 0; seed < 120; ++seed) {
         SCOPED_TRACE(seed);
         Random random(seed);
         const bool is_3d = seed % 3 == 0;
@@ -87,7 +87,7 @@ TEST(Unmendable, NothingThatHasAValidPositionIsCalledImpossible) {
                 << "element " << element << ", aspect " << aspect << ": " << impossible->reason;
         }
     }
-    EXPECT_GT(looked_at, 2000);
+    EXPECT_GT(looked_at, 800);
 }
 
 /// Layers under a wall of aspect 1e4 whose curvature the nodes inside have not followed; the witness is where they
