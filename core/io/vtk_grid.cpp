@@ -102,8 +102,8 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
             int state = -1;
             if (is_element) {
                 const Validity proved = quality->elements[element++].validity;
-                state = proved == Validity::valid          ? 1
-                        : proved == Validity::invalid    ? 0
+                state = proved == Validity::valid       ? 1
+                        : proved == Validity::invalid   ? 0
                         : proved == Validity::undecided ? 2
                                                         : 3;
             }

@@ -11,11 +11,11 @@ namespace curvewright {
 /// A part of the mesh consists of elements that meet in whole facets. Two of them that meet in a facet, which no third
 /// one has, run alike if they number it in opposite senses. Where that leads to no contradiction, a part falls into two
 /// classes; those of the smaller one are *reversed*. If the classes are of one size, the one without the part's first
-/// element is. A part that contradicts itself (a Möbius strip) cannot be numbered alike: it is one-sided, and nothing in
-/// it is reversed.
+/// element is. A part that contradicts itself (a Möbius strip) cannot be numbered alike: it is one-sided, and nothing
+/// in it is reversed.
 struct Winding {
-    std::vector<Index> part_of_element;  ///< 0 .. part_count - 1, in the order of their first elements
-    std::vector<char> is_reversed;       ///< per element; empty if none is
+    std::vector<Index> part_of_element;   ///< 0 .. part_count - 1, in the order of their first elements
+    std::vector<char> is_reversed;        ///< per element; empty if none is
     std::vector<char> is_part_one_sided;  ///< per part; empty if none is
     Index part_count = 0, reversed_count = 0, one_sided_count = 0;
 };

@@ -13,9 +13,9 @@ namespace curvewright {
 
 /// What is proved about the sign of an element's Jacobian determinant J.
 enum class Validity {
-    valid,      ///< J > 0 everywhere
-    invalid,    ///< J < 0 somewhere ("tangled")
-    undecided,  ///< neither could be proved: the subdivision budget ran out, or min J is zero up to rounding
+    valid,         ///< J > 0 everywhere
+    invalid,       ///< J < 0 somewhere ("tangled")
+    undecided,     ///< neither could be proved: the subdivision budget ran out, or min J is zero up to rounding
     not_assessed,  ///< nothing was looked at: pyramids, whose shape functions are rational
 };
 /// "valid", "invalid", "undecided", "not assessed".
@@ -57,7 +57,8 @@ struct ElementQuality {
 
 /// The quality of a mesh in a few numbers.
 struct QualitySummary {
-    double min = 0.0, mean = 0.0, max = 0.0;  ///< of the scaled Jacobian, over the assessed elements; 0 if there are none
+    /// Of the scaled Jacobian, over the assessed elements; 0 if there are none.
+    double min = 0.0, mean = 0.0, max = 0.0;
     Index valid = 0, invalid = 0, undecided = 0;
     Index not_assessed = 0;
     Index reversed = 0;  ///< of all of these, those that are numbered against their neighbours
@@ -95,8 +96,8 @@ struct Reorientation {
     Index renumbered = 0;  ///< elements that are numbered the other way round now
 };
 /// The same mesh with all elements numbered so that J > 0 is expected (surfaces in space: so that none is reversed):
-/// reversed elements and those of negative parts are renumbered, but not those that are both. Tags, entities, groups and the
-/// order of everything stay, and so do cells of lower dimension.
+/// reversed elements and those of negative parts are renumbered, but not those that are both. Tags, entities, groups
+/// and the order of everything stay, and so do cells of lower dimension.
 Reorientation reorient(const CurvedMesh& mesh);
 
 /// Certified scaled Jacobian of every element: J in Bernstein-Bézier form, adaptive subdivision (Johnen, Remacle,
