@@ -19,6 +19,7 @@
 #include "core/untangle/unsigned_angles.h"
 #include "tests/gui/gui_test_support.h"
 #include "tests/support/mesh_factory.h"
+#include "ui/panels/banner.h"
 
 using namespace curvewright;
 using namespace curvewright::testing;
@@ -62,6 +63,11 @@ struct UntangleUnderTest : WindowUnderTest {
 
     QString note;
 };
+
+/// What stands over the view.
+QString told(UntangleUnderTest& test) {
+    return test.find<Banner>("banner")->text();
+}
 
 constexpr const char* guaranteed_fields[] = {"boundary", "improves", "target"};
 constexpr const char* signed_angle_fields[] = {"beta", "max_passes", "reject_worse_pass"};
@@ -184,7 +190,7 @@ class UntangleTest : public QObject {
         test.find<QCheckBox>("literal")->setChecked(true);
         QVERIFY(test.untangle_and_wait());
         QCOMPARE(test.state().quality->summary.invalid, 2);
-        QVERIFY2(test.note.contains(QStringLiteral("the guaranteed method")), qPrintable(test.note));
+        QVERIFY2(told(test).contains(QStringLiteral("the guaranteed method")), qPrintable(told(test)));
     }
 
     void says_which_elements_cannot_be_mended() {

@@ -69,12 +69,16 @@ std::optional<GroupLine> unnamed_interfaces(const MeshTopology& topology) {
     const std::vector<Facet>& facets = topology.interface_facets();
     for (std::size_t i = 0; i < facets.size(); ++i) {
         const auto nodes = topology.facet_nodes(facets[i]);
-        if (std::any_of(nodes.begin(), nodes.end(),
-                        [&](Index node) { return is_unnamed[static_cast<std::size_t>(node)]; }))
-            line.elements.insert(line.elements.end(), {facets[i].element, topology.interface_neighbours()[i]});
+        if (std::none_of(nodes.begin(), nodes.end(),
+                         [&](Index node) { return is_unnamed[static_cast<std::size_t>(node)]; }))
+            continue;
+        line.elements.insert(line.elements.end(), {facets[i].element, topology.interface_neighbours()[i]});
+        line.nodes.insert(line.nodes.end(), nodes.begin(), nodes.end());  // where it ends on the boundary, too
     }
-    std::sort(line.elements.begin(), line.elements.end());
-    line.elements.erase(std::unique(line.elements.begin(), line.elements.end()), line.elements.end());
+    for (std::vector<Index>* its : {&line.nodes, &line.elements}) {
+        std::sort(its->begin(), its->end());
+        its->erase(std::unique(its->begin(), its->end()), its->end());
+    }
     return line;
 }
 

@@ -12,6 +12,10 @@ bool is_mixed(const MeshState& state) {
     return state.quality && state.quality->orientation == Orientation::mixed;
 }
 
+bool is_negative(const MeshState& state) {
+    return state.quality && state.quality->orientation == Orientation::negative;
+}
+
 }  // namespace
 
 std::vector<Notice> standing_notices(const MeshDocument& document) {
@@ -24,7 +28,8 @@ std::vector<Notice> standing_notices(const MeshDocument& document) {
         return notices;
     }
     const Orientation orientation = state.quality->orientation;
-    if (orientation == Orientation::negative)
+    // What was turned over by what has been done since is tangled, not numbered so.
+    if (orientation == Orientation::negative && is_negative(document.original()))
         notices.push_back(
             {NoticeSeverity::warning,
              NoticeBoard::tr("All elements are numbered clockwise, so their Jacobian is negative. That is a matter of "

@@ -31,6 +31,10 @@ std::optional<Notice> warning_of_tangled(const QualityReport& quality, const QSt
     return Notice{NoticeSeverity::warning, text, {selecting_elements(std::move(tangled))}};
 }
 
+QString why_nothing_is_assessed() {
+    return MeshJobs::tr("All elements are pyramids, whose quality is not assessed.");
+}
+
 /// None if it was reached, or if elements are not valid, which is told then.
 std::optional<Notice> note_of_missed_target(const QualityReport& quality, double target) {
     const QualitySummary& summary = quality.summary;
@@ -143,11 +147,7 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         const std::stop_callback on_cancel(context.stop, stop), on_keep(keep, stop);
         Step result = step(*start.mesh, {either.get_token(), context.progress});
         context.check();
-        if (result.coordinates == start.mesh->coordinates()) {
-            if (start.quality && start.quality->summary.invalid > 0 && !result.advice.isEmpty())
-                result.note += QLatin1Char(' ') + result.advice;
-            return nothing_moved(std::move(result), then);
-        }
+        if (result.coordinates == start.mesh->coordinates()) return nothing_moved(std::move(result), start, then);
         MeshState state = make_state(start.mesh->with_coordinates(std::move(result.coordinates)), context, &start);
         state.applied_deformations = applied;
         QString text = result.note;
@@ -174,9 +174,16 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
     return runner_.start(title, [work = std::move(work)](const TaskContext& context) { return work(context, {}); });
 }
 
-JobRunner::Finish MeshJobs::nothing_moved(Step result, std::function<void(bool)> then) {
+JobRunner::Finish MeshJobs::nothing_moved(Step result, const MeshState& state, std::function<void(bool)> then) {
     std::vector<Notice> notices = std::move(result.notices);
-    if (notices.empty()) notices.push_back({NoticeSeverity::information, result.note});
+    if (notices.empty()) {
+        notices.push_back({NoticeSeverity::information, result.note});
+        if (result.warns_of_tangled && state.quality)
+            if (auto warning = warning_of_tangled(*state.quality, result.advice)) {
+                if (!result.note.isEmpty()) warning->text = result.note + QLatin1Char(' ') + warning->text;
+                notices.front() = *warning;
+            }
+    }
     // There is no step to be undone.
     for (Notice& notice : notices)
         for (NoticeAction& action : notice.actions) action.undoes = false;
@@ -185,9 +192,8 @@ JobRunner::Finish MeshJobs::nothing_moved(Step result, std::function<void(bool)>
     const QString why = first.text;
     first.text = tr("Nothing moved, so there is no new step.");
     if (!why.isEmpty()) first.text += QLatin1Char(' ') + why;
-    return [this, notices, text = result.note, then = std::move(then)] {
+    return [this, notices, then = std::move(then)] {
         if (then) then(false);
-        if (!text.isEmpty()) emit note(text);
         for (const Notice& notice : notices) emit noticed(notice);
     };
 }
@@ -217,11 +223,13 @@ bool MeshJobs::is_untangled(const UntangleOptions& options) {
         improve.improve->target = guaranteed->target;
         improve.improve->boundary = guaranteed->boundary;
     }
-    emit noticed({NoticeSeverity::information,
-                  tr("All elements are valid already, and untangling leaves such a mesh as it is."),
-                  {improve},
-                  NoticeLife::state,
-                  QStringLiteral("nothing_moved")});
+    const QString text =
+        quality->summary.not_assessed == 0
+            ? tr("All elements are valid already, and untangling leaves such a mesh as it is.")
+            : tr("All elements that are assessed are valid already, and untangling leaves such a mesh as it is; %1 are "
+                 "pyramids, which are not assessed.")
+                  .arg(format_count(quality->summary.not_assessed));
+    emit noticed({NoticeSeverity::information, text, {improve}, NoticeLife::state, QStringLiteral("nothing_moved")});
     return true;
 }
 
@@ -255,7 +263,7 @@ bool MeshJobs::renumber() {
         if (reorientation.renumbered == 0) {
             Step step;
             step.note = tr("All elements are numbered alike.");
-            return nothing_moved(std::move(step), {});
+            return nothing_moved(std::move(step), start, {});
         }
         const Step step = reorient_step(reorientation);
         MeshState state = make_state(reorientation.mesh, context);
@@ -338,6 +346,7 @@ QString MeshJobs::why_not_improve() const {
     if (!state.quality) return state.quality_note;
     if (state.quality->summary.invalid + state.quality->summary.undecided > 0)
         return tr("Only a mesh of valid elements can be improved: untangle it first.");
+    if (state.quality->summary.assessed() == 0) return why_nothing_is_assessed();
     return {};
 }
 
@@ -346,6 +355,7 @@ QString MeshJobs::why_not_untangle(UntangleMethod method) const {
     const QString reason = curvewright::why_not_untangle(document_.state().mesh->topology(), method);
     if (!reason.isEmpty()) return reason;
     if (!document_.state().quality) return document_.state().quality_note;
+    if (document_.state().quality->summary.assessed() == 0) return why_nothing_is_assessed();
     return {};
 }
 

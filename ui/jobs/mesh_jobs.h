@@ -114,8 +114,8 @@ class MeshJobs : public QObject {
                   std::function<Step(const CurvedMesh&, const TaskContext&)> step, bool can_keep = false,
                   std::function<void(bool is_step)> then = {});
 
-    /// What is told instead of a step. Of a worker thread; what it returns is of the window's.
-    JobRunner::Finish nothing_moved(Step result, std::function<void(bool is_step)> then);
+    /// What is told instead of a step from a state. Of a worker thread; what it returns is of the window's.
+    JobRunner::Finish nothing_moved(Step result, const MeshState& state, std::function<void(bool is_step)> then);
     /// Whether there is nothing to be untangled in the present state; says so if there is not.
     bool is_untangled(const UntangleOptions& options);
 
