@@ -123,7 +123,8 @@ void print_text(const Options& options, const MeshComparison& found) {
         fmt::print("  after        {}\n", summary_line(*found.quality_after));
         print_tags("became invalid", found.became_invalid);
         print_tags("became valid", found.became_valid);
-        if (const auto& worst = found.most_worsened)
+        // Less than that is rounding.
+        if (const auto& worst = found.most_worsened; worst && worst->before - worst->after > 1e-9)
             fmt::print("  most worsened: element {} from {:.4g} to {:.4g}\n", worst->tag.value, worst->before,
                        worst->after);
     }

@@ -59,9 +59,18 @@ void match_nodes(ReadResult& read, std::optional<double> tolerance, const TaskCo
                             cautious_coincidence.tolerance));
     }
     const Nonconformity nonconformity = find_nonconformity(read.mesh, context);
-    if (!nonconformity.empty())
+    if (!nonconformity.conforms())
         read.notes.push_back(describe(nonconformity, read.mesh.topology()) +
                              "; the mesh can be looked at, but commands that move nodes refuse it.");
+    if (!nonconformity.touching.empty()) {
+        const HangingNode& first = nonconformity.touching.front();
+        const MeshTopology& topology = read.mesh.topology();
+        read.notes.push_back(
+            fmt::format("Bodies touch without having a node in common: node {} lies on element {} of another body (the "
+                        "first of {}); each moves by itself.",
+                        topology.node_tag(first.node).value, topology.element_tag(first.facet.element).value,
+                        nonconformity.touching.size()));
+    }
 }
 
 ReadResult read_matched_mesh(const std::filesystem::path& file, std::optional<double> tolerance,

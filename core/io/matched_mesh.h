@@ -12,7 +12,8 @@ namespace curvewright {
 ///   InvalidInput that names an element which would get the same node twice.
 /// - not given: nodes at one place are merged if no two elements share a node (files of discontinuous methods, where
 ///   every cell has its own points), and are only told otherwise, since they may be a slit.
-/// Hanging nodes and neighbours of different orders are told; require_conforming refuses them. Arrays follow. What was
+/// Hanging nodes and neighbours of different orders are told; require_conforming refuses them. Bodies that touch are
+/// told. Arrays follow. What was
 /// done and found is added to the notes. The result does not depend on the number of threads. Throws Cancelled.
 void match_nodes(ReadResult& read, std::optional<double> tolerance = {}, const TaskContext& context = {});
 

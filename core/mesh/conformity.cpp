@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 #include <Eigen/Geometry>
@@ -281,7 +283,28 @@ class Search {
         constexpr double near = 1e-4;
         bool is_on_edge = shape.type.shape == Shape::line || u->head(2).minCoeff() < near;
         is_on_edge = is_on_edge || (shape.type.shape == Shape::triangle ? u->sum() : u->maxCoeff()) > 1.0 - near;
-        result_.hanging.push_back({node, facets_[f], is_on_edge});
+        auto& list = is_one_body(node, nodes_[f].front()) ? result_.hanging : result_.touching;
+        list.push_back({node, facets_[f], is_on_edge});
+    }
+
+    /// Whether a chain of elements, each of which shares a node with the next, leads from one node to the other.
+    bool is_one_body(Index a, Index b) {
+        if (body_.empty()) {
+            body_.resize(static_cast<std::size_t>(topology_.node_count()));
+            std::iota(body_.begin(), body_.end(), 0);
+            for (Index element = 0; element < topology_.element_count(); ++element) {
+                const auto nodes = topology_.element_nodes(element);
+                for (const Index node : nodes) {
+                    const Index one = root(nodes.front()), other = root(node);
+                    body_[std::max(one, other)] = std::min(one, other);
+                }
+            }
+        }
+        return root(a) == root(b);
+    }
+    Index root(Index node) {
+        while (body_[node] != node) node = body_[node] = body_[body_[node]];
+        return node;
     }
 
     /// Unit vector across a facet at a reference point, away from the element's middle; zero where it is not defined.
@@ -307,6 +330,7 @@ class Search {
     std::vector<std::size_t> twins_;                ///< per facet: its group
     std::vector<std::vector<std::size_t>> groups_;  ///< facets with the same corners
     std::vector<std::vector<std::size_t>> facets_of_;
+    std::vector<Index> body_;  ///< forest of the nodes that elements connect; made when it is needed
     Nonconformity result_;
 };
 
@@ -339,7 +363,7 @@ std::string describe(const Nonconformity& nonconformity, const MeshTopology& top
 
 void require_conforming(const CurvedMesh& mesh, const TaskContext& context) {
     const Nonconformity found = find_nonconformity(mesh, context);
-    if (!found.empty())
+    if (!found.conforms())
         throw Unsupported(describe(found, mesh.topology()) +
                           "; moving nodes would tear the elements apart there, so only meshes whose facets match can "
                           "be moved.");

@@ -145,8 +145,8 @@ std::vector<Index> QualityReport::worst(std::size_t count) const {
         return elements[element].validity != Validity::not_assessed;
     });
     count = std::min(count, order.size());
-    std::partial_sort(order.begin(), order.begin() + std::min(static_cast<std::ptrdiff_t>(count), last - order.begin()), last,
-                      [&](Index a, Index b) {
+    std::partial_sort(order.begin(), order.begin() + std::min(static_cast<std::ptrdiff_t>(count), last - order.begin()),
+                      last, [&](Index a, Index b) {
                           const double qa = elements[a].scaled_jacobian, qb = elements[b].scaled_jacobian;
                           return qa != qb ? qa < qb : a < b;
                       });

@@ -111,6 +111,7 @@ CurvedMesh perform(const Action& action, const CurvedMesh& mesh, const CurvedMes
                    std::vector<std::string>* notes) {
     return std::visit(
         Overloaded{[&](const DeformAction& its) {
+                       require_conforming(mesh, context);
                        return mesh.with_coordinates(apply_deformation(mesh, deformation_of(its.deformation)));
                    },
                    [&](const WarpAction& its) {

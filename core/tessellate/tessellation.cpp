@@ -251,8 +251,7 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
         const std::vector<Facet> facets = is_shrunk() ? all_facets(topology, visible) : find_skin(topology, visible);
         if (!visible.empty() && !is_shrunk()) face_is_outer = find_outer(topology, facets);
         for (const Facet& facet : facets) {
-            const ElementType type =
-                reference_element(topology.element_type(facet.element)).facets[facet.local].type;
+            const ElementType type = reference_element(topology.element_type(facet.element)).facets[facet.local].type;
             std::vector<Index> nodes = topology.facet_nodes(facet);
             if (topology.is_reversed(facet.element)) nodes = mirrored(type, nodes);
             add_patch(faces_, facet.element, type, nodes);
@@ -278,7 +277,7 @@ Tessellation::Tessellation(const CurvedMesh& mesh, const std::vector<bool>& visi
 }
 
 void Tessellation::find_edges(const std::vector<bool>& face_is_outer, const MeshTopology& topology) {
-    const std::vector<std::array<Index, 2>> interfaces = interface_edges(topology);
+    const auto interfaces = interface_edges(topology);
     line_is_boundary_.assign(edges_.size(), 1);
     line_is_interface_.assign(edges_.size(), 0);
     line_is_rim_.assign(edges_.size(), 0);
@@ -300,13 +299,10 @@ void Tessellation::find_edges(const std::vector<bool>& face_is_outer, const Mesh
         const Patch& face = faces_[keys[i].element];
         const SubElement& side = reference_element(face.type).edges[keys[i].local];
         edges_.push_back({face.element, side.type, 1, static_cast<Index>(patch_nodes_.size()), 0});
-        for (int node : side.nodes) {
-            const Index global = patch_nodes_[face.first_node + node];
-            patch_nodes_.push_back(global);
-        }
+        for (int node : side.nodes) patch_nodes_.push_back(Index(patch_nodes_[face.first_node + node]));
         line_is_boundary_.push_back(end == i + 1 && !is_shrunk() ? 1 : 0);
-        line_is_interface_.push_back(
-            !is_shrunk() && std::binary_search(interfaces.begin(), interfaces.end(), keys[i].ends()) ? 1 : 0);
+        const bool is_interface = std::binary_search(interfaces.begin(), interfaces.end(), keys[i].ends());
+        line_is_interface_.push_back(is_interface && !is_shrunk() ? 1 : 0);
         std::size_t outer = 0;
         for (std::size_t key = i; key < end && !face_is_outer.empty(); ++key)
             outer += face_is_outer[static_cast<std::size_t>(keys[key].element)] ? 1 : 0;
@@ -384,19 +380,21 @@ void Tessellation::lay_out() {
         return std::tie(edges_[a].type, edges_[a].subdivisions) < std::tie(edges_[b].type, edges_[b].subdivisions);
     });
     std::vector<Patch> sorted;
-    std::vector<std::uint8_t> is_boundary, is_rim;
+    std::vector<std::uint8_t> is_boundary, is_rim, is_interface;
     line_offsets_.push_back(0);
     for (std::size_t i : order) {
         sorted.push_back(edges_[i]);
         sorted.back().first_point = line_offsets_.back();
         is_boundary.push_back(line_is_boundary_[i]);
         is_rim.push_back(line_is_rim_[i]);
+        is_interface.push_back(line_is_interface_[i]);
         line_elements_.push_back(edges_[i].element);
         line_offsets_.push_back(line_offsets_.back() + edges_[i].subdivisions + 1);
     }
     edges_ = std::move(sorted);
     line_is_boundary_ = std::move(is_boundary);
     line_is_rim_ = std::move(is_rim);
+    line_is_interface_ = std::move(is_interface);
     edge_points_.resize(3 * static_cast<std::size_t>(line_offsets_.back()));
 }
 

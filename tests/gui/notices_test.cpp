@@ -360,7 +360,8 @@ class NoticesTest : public QObject {
                 const GroupLine& line = test.window->document().groups()[groups->indexOfTopLevelItem(rows[0])];
                 std::vector<Index> in_the_middle;
                 for (Index node = 0; node < topology.node_count(); ++node)
-                    if (std::abs(mesh.coordinates()(node, 0) - 0.5) < 1e-12) in_the_middle.push_back(node);
+                    if (std::abs(test.window->document().state().mesh->coordinates()(node, 0) - 0.5) < 1e-12)
+                        in_the_middle.push_back(node);
                 QCOMPARE(line.nodes, in_the_middle);
                 // The elements on both sides.
                 QCOMPARE(line.elements.size(), 2 * topology.interface_facets().size());

@@ -249,6 +249,10 @@ class UntangleTest : public QObject {
         test.open(test.file("pyramids.msh", pyramid_mesh(1)));
         QVERIFY(button->isEnabled() && reason().isEmpty());
         QCOMPARE(test.state().quality->summary.not_assessed, 6);
+        QVERIFY(test.untangle_and_wait());
+        QCOMPARE(test.document().history()->count(), 0);
+        QVERIFY2(told(test).contains(QStringLiteral("not assessed")) && !told(test).contains(QStringLiteral("valid")),
+                 qPrintable(told(test)));
     }
 
     void the_boundary_slides_where_it_is_told_to() {

@@ -153,6 +153,9 @@ bool MeshJobs::run_step(const QString& title, bool applies_deformation,
         QString text = result.note;
         if (state.quality && state.quality->summary.invalid > 0 && !result.advice.isEmpty())
             text += QLatin1Char(' ') + result.advice;
+        if (state.quality && state.quality->summary.not_assessed > 0)
+            text += QLatin1Char(' ') +
+                    tr("%1 pyramids are not assessed.").arg(format_count(state.quality->summary.not_assessed));
         if (result.target && state.quality)
             if (auto missed = note_of_missed_target(*state.quality, *result.target)) result.notices.push_back(*missed);
         if (result.warns_of_tangled && state.quality)
@@ -217,19 +220,24 @@ bool MeshJobs::warp(const WarpOptions& options, const std::optional<IncrementOpt
 bool MeshJobs::is_untangled(const UntangleOptions& options) {
     const auto& quality = document_.state().quality;
     if (runner_.is_running() || !quality || quality->summary.invalid + quality->summary.undecided > 0) return false;
-    NoticeAction improve{NoticeCommand::improve};
-    improve.improve.emplace();
-    if (const auto* guaranteed = std::get_if<GuaranteedOptions>(&options)) {
-        improve.improve->target = guaranteed->target;
-        improve.improve->boundary = guaranteed->boundary;
+    const QualitySummary& summary = quality->summary;
+    Notice notice{NoticeSeverity::information, {}, {}, NoticeLife::state, QStringLiteral("nothing_moved")};
+    notice.text = summary.assessed() == 0 ? why_nothing_is_assessed()
+                  : summary.not_assessed == 0
+                      ? tr("All elements are valid already, and untangling leaves such a mesh as it is.")
+                      : tr("All elements that are assessed are valid already, and untangling leaves such a mesh as it "
+                           "is; %1 are pyramids, which are not assessed.")
+                            .arg(format_count(summary.not_assessed));
+    if (summary.assessed() > 0) {
+        NoticeAction improve{NoticeCommand::improve};
+        improve.improve.emplace();
+        if (const auto* guaranteed = std::get_if<GuaranteedOptions>(&options)) {
+            improve.improve->target = guaranteed->target;
+            improve.improve->boundary = guaranteed->boundary;
+        }
+        notice.actions.push_back(std::move(improve));
     }
-    const QString text =
-        quality->summary.not_assessed == 0
-            ? tr("All elements are valid already, and untangling leaves such a mesh as it is.")
-            : tr("All elements that are assessed are valid already, and untangling leaves such a mesh as it is; %1 are "
-                 "pyramids, which are not assessed.")
-                  .arg(format_count(quality->summary.not_assessed));
-    emit noticed({NoticeSeverity::information, text, {improve}, NoticeLife::state, QStringLiteral("nothing_moved")});
+    emit noticed(notice);
     return true;
 }
 
@@ -355,7 +363,6 @@ QString MeshJobs::why_not_untangle(UntangleMethod method) const {
     const QString reason = curvewright::why_not_untangle(document_.state().mesh->topology(), method);
     if (!reason.isEmpty()) return reason;
     if (!document_.state().quality) return document_.state().quality_note;
-    if (document_.state().quality->summary.assessed() == 0) return why_nothing_is_assessed();
     return {};
 }
 

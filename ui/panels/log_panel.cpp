@@ -10,6 +10,7 @@
 #include <QLabel>
 #include <QPushButton>
 #include <QScrollBar>
+#include <QStyledItemDelegate>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
@@ -20,6 +21,18 @@ namespace curvewright {
 namespace {
 
 enum Column { time_column, step_column, text_column, columns };
+
+/// The icon beside the first line of a text, not in the middle of all of them.
+class TopIconDelegate : public QStyledItemDelegate {
+  public:
+    using QStyledItemDelegate::QStyledItemDelegate;
+
+  protected:
+    void initStyleOption(QStyleOptionViewItem* option, const QModelIndex& index) const override {
+        QStyledItemDelegate::initStyleOption(option, index);
+        option->decorationAlignment = Qt::AlignHCenter | Qt::AlignTop;
+    }
+};
 
 }  // namespace
 
@@ -37,6 +50,7 @@ LogPanel::LogPanel(MessageLog& log, const Theme& theme, QWidget* parent) : QWidg
     table_->horizontalHeader()->setHighlightSections(false);
     table_->verticalHeader()->hide();
     table_->verticalHeader()->setMinimumSectionSize(24);
+    table_->setItemDelegateForColumn(text_column, new TopIconDelegate(this));
     table_->setShowGrid(false);
     table_->setWordWrap(true);
     table_->setTabKeyNavigation(false);

@@ -44,14 +44,14 @@ TEST(Conformity, MatchingMeshesOfEveryShapeAndOrderConform) {
                                                 testing::mixed_cube_mesh(2, order)};
         for (const CurvedMesh& mesh : meshes)
             for (const CurvedMesh& state : {mesh, bent(mesh)}) {
-                EXPECT_TRUE(find_nonconformity(state).empty());
+                EXPECT_TRUE(find_nonconformity(state).conforms());
                 EXPECT_NO_THROW(require_conforming(state));
                 // Cells of their own points touch everywhere, node for node.
-                EXPECT_TRUE(find_nonconformity(testing::with_own_points(state)).empty());
+                EXPECT_TRUE(find_nonconformity(testing::with_own_points(state)).conforms());
             }
     }
-    EXPECT_TRUE(find_nonconformity(testing::pyramid_mesh(2)).empty());
-    EXPECT_TRUE(find_nonconformity(mesh_of_cells({{0, 0, 0}}, {})).empty());
+    EXPECT_TRUE(find_nonconformity(testing::pyramid_mesh(2)).conforms());
+    EXPECT_TRUE(find_nonconformity(mesh_of_cells({{0, 0, 0}}, {})).conforms());
 }
 
 TEST(Conformity, SlitsConform) {
@@ -61,8 +61,8 @@ TEST(Conformity, SlitsConform) {
         for (const CurvedMesh& mesh : {testing::square_mesh(4, order), testing::cube_mesh(2, order)}) {
             const CurvedMesh slit = testing::with_slit(mesh, on_half, behind);
             ASSERT_GT(slit.topology().node_count(), mesh.topology().node_count());
-            EXPECT_TRUE(find_nonconformity(slit).empty());
-            EXPECT_TRUE(find_nonconformity(bent(slit)).empty());
+            EXPECT_TRUE(find_nonconformity(slit).conforms());
+            EXPECT_TRUE(find_nonconformity(bent(slit)).conforms());
         }
     }
 }
@@ -114,7 +114,7 @@ TEST(Conformity, FindsHangingNodesOfFaces) {
     int inside = 0;
     for (const HangingNode& node : find_nonconformity(mesh).hanging) inside += node.is_on_edge ? 0 : 1;
     EXPECT_EQ(inside, 1);
-    EXPECT_FALSE(find_nonconformity(elevate(mesh, 3)).empty());
+    EXPECT_FALSE(find_nonconformity(elevate(mesh, 3)).conforms());
 
     // Four tetrahedra on one: the middle of an edge of the base.
     const CurvedMesh tetrahedra = mesh_of_cells({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {.5, .5, 0}, {0, 0, -1}},
@@ -179,7 +179,28 @@ TEST(Conformity, BoundariesThatTouchAtAPointConform) {
     const CurvedMesh corner =
         mesh_of_cells({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, 1, 0}, {1, 2, 0}, {0, 2, 0}},
                       {{{Shape::quadrilateral, 1}, {0, 1, 2, 3}}, {{Shape::triangle, 1}, {4, 5, 6}}});
-    EXPECT_TRUE(find_nonconformity(corner).empty());
+    EXPECT_TRUE(find_nonconformity(corner).conforms());
+}
+
+TEST(Conformity, BodiesThatTouchAreToldAndConform) {
+    // Parts of an assembly, halves and thirds of a side, and a cube on four: no node in common.
+    const CurvedMesh squares =
+        mesh_of_cells({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {1, -.5, 0}, {2, 0, 0}, {2, .5, 0}, {1, .5, 0}},
+                      {{{Shape::quadrilateral, 1}, {0, 1, 2, 3}}, {{Shape::quadrilateral, 1}, {4, 5, 6, 7}}});
+    for (const CurvedMesh& mesh : {squares, testing::with_own_points(testing::hanging_square()),
+                                   testing::with_own_points(testing::hanging_cubes())}) {
+        const Nonconformity found = find_nonconformity(mesh);
+        EXPECT_TRUE(found.hanging.empty());
+        EXPECT_FALSE(found.touching.empty());
+        EXPECT_NO_THROW(require_conforming(mesh));
+    }
+    // As soon as nodes at one place are one, the others hang.
+    for (const CurvedMesh& whole : {testing::hanging_square(), testing::hanging_cubes()}) {
+        const CurvedMesh torn = testing::with_own_points(whole);
+        const CurvedMesh merged = merge_nodes(torn, find_coincident_nodes(torn)).mesh;
+        EXPECT_EQ(find_nonconformity(merged).hanging.size(), find_nonconformity(whole).hanging.size());
+        EXPECT_TRUE(find_nonconformity(merged).touching.empty());
+    }
 }
 
 TEST(Conformity, LayersThatLieOnEachOtherConform) {
@@ -187,7 +208,7 @@ TEST(Conformity, LayersThatLieOnEachOtherConform) {
     const CurvedMesh twice =
         mesh_of_cells({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {.5, 0, 0}, {1.5, 0, 0}, {1.5, 1, 0}, {.5, 1, 0}},
                       {{{Shape::quadrilateral, 1}, {0, 1, 2, 3}}, {{Shape::quadrilateral, 1}, {4, 5, 6, 7}}});
-    EXPECT_TRUE(find_nonconformity(twice).empty());
+    EXPECT_TRUE(find_nonconformity(twice).conforms());
 }
 
 }  // namespace

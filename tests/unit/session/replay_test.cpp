@@ -13,6 +13,7 @@
 #include "core/io/mesh_io.h"
 #include "core/session/session_file.h"
 #include "tests/support/mesh_factory.h"
+#include "tests/unit/mesh/torn_meshes.h"
 
 namespace curvewright {
 namespace {
@@ -125,6 +126,25 @@ TEST_F(ReplayTest, TheSameForEveryNumberOfThreads) {
     }
     EXPECT_EQ(results[0], results[1]);
     EXPECT_EQ(results[0], results[2]);
+}
+
+TEST_F(ReplayTest, MeshesAreConnectedOrRefusedAsInTheWindow) {
+    write_mesh(folder / "torn.msh", with_own_points(square_mesh(2, 2)));
+    Replay replay(folder);
+    replay.perform(OpenAction{"torn.msh"});
+    EXPECT_EQ(replay.mesh().topology().node_count(), square_mesh(2, 2).topology().node_count());
+
+    write_mesh(folder / "hanging.msh", hanging_square());
+    std::ofstream(folder / "shift.json") << R"json({"operations": [
+        {"group": "all", "type": "translate", "vector": [0.1, 0, 0]}]})json";
+    replay.perform(OpenAction{"hanging.msh"});
+    DragAction drag;
+    drag.nodes = {{1}};
+    drag.motion.shift = {0.05, 0.0, 0.0};
+    for (const Action& action : {Action(DeformAction{"shift.json"}), Action(WarpAction{"shift.json", {}, {}}),
+                                 Action(UntangleAction{GuaranteedOptions{}}), Action(drag)})
+        EXPECT_THROW(replay.perform(action), Unsupported);
+    EXPECT_EQ(replay.mesh().coordinates(), hanging_square().coordinates());
 }
 
 TEST_F(ReplayTest, WhatCannotBeDoneLeavesTheMesh) {

@@ -491,28 +491,43 @@ TEST(Fields, MissingValuesSpreadOverTheirElementOnly) {
 }
 
 TEST(Tessellation, TellsWhichLinesAreEdgesOfInterfaces) {
-    const auto flagged = [](const CurvedMesh& mesh, bool lies_in_the_middle) {
-        const Tessellation tessellation(mesh);
+    // Every line has both ends where the plane x = 0.5 has gone, and there are as many as there are edges in it.
+    const auto flagged = [](const CurvedMesh& mesh, double height) {
+        const CurvedMesh drawn = height == 0.0 ? mesh : testing::with_bent_middle(mesh, height);
+        std::set<std::vector<double>> on_it;  // of the drawn mesh, where the nodes of the plane x = 0.5 have gone
+        for (Index node = 0; node < mesh.topology().node_count(); ++node)
+            if (std::abs(mesh.coordinates()(node, 0) - 0.5) < 1e-12)
+                on_it.insert(
+                    {drawn.coordinates()(node, 0), drawn.coordinates()(node, 1), drawn.coordinates()(node, 2)});
+        const auto is_on_it = [&](const Tessellation& of, Index point) {
+            return std::any_of(on_it.begin(), on_it.end(), [&](const std::vector<double>& x) {
+                double distance = 0.0;
+                for (std::size_t d = 0; d < 3; ++d)
+                    distance = std::max(distance, std::abs(of.edge_points()[3 * static_cast<std::size_t>(point) + d] +
+                                                           of.origin()[static_cast<Eigen::Index>(d)] - x[d]));
+                return distance < 1e-6;
+            });
+        };
+        const Tessellation tessellation(drawn);
         std::size_t count = 0;
         for (std::size_t line = 0; line < tessellation.line_elements().size(); ++line) {
-            // All of its points, and none of those of the others.
-            bool is_in_the_middle = true;
-            for (Index point = tessellation.line_offsets()[line]; point < tessellation.line_offsets()[line + 1];
-                 ++point)
-                is_in_the_middle &=
-                    std::abs(tessellation.edge_points()[3 * point] + tessellation.origin()[0] - 0.5) < 1e-6;
-            const bool is_interface = tessellation.line_is_interface()[line] != 0;
-            EXPECT_EQ(is_interface, is_in_the_middle && lies_in_the_middle);
-            count += is_interface ? 1 : 0;
+            if (tessellation.line_is_interface()[line] == 0) continue;
+            ++count;
+            EXPECT_TRUE(is_on_it(tessellation, tessellation.line_offsets()[line]));
+            EXPECT_TRUE(is_on_it(tessellation, tessellation.line_offsets()[line + 1] - 1));
         }
         return count;
     };
-    EXPECT_EQ(flagged(testing::square_mesh(4, 3), false), 0U);
-    EXPECT_EQ(flagged(testing::with_regions(testing::square_mesh(4, 3), testing::InterfaceCells::none), true), 4U);
-    EXPECT_EQ(flagged(testing::with_regions(testing::quad_mesh(4, 2), testing::InterfaceCells::named), true), 4U);
-    // Of a solid, where the interface comes to the surface.
-    EXPECT_EQ(flagged(testing::with_regions(testing::cube_mesh(2, 2), testing::InterfaceCells::none), true), 8U);
-    EXPECT_EQ(flagged(testing::with_regions(testing::hex_mesh(2, 3), testing::InterfaceCells::named), true), 8U);
+    using testing::InterfaceCells;
+    EXPECT_EQ(flagged(testing::square_mesh(4, 3), 0.0), 0U);
+    // Curved, so that lines are cut into different numbers of pieces.
+    for (const double height : {0.0, 0.1}) {
+        EXPECT_EQ(flagged(testing::with_regions(testing::square_mesh(4, 3), InterfaceCells::none), height), 4U);
+        EXPECT_EQ(flagged(testing::with_regions(testing::quad_mesh(4, 2), InterfaceCells::named), height), 4U);
+        // Of a solid, where the interface comes to the surface.
+        EXPECT_EQ(flagged(testing::with_regions(testing::cube_mesh(2, 2), InterfaceCells::none), height), 8U);
+        EXPECT_EQ(flagged(testing::with_regions(testing::hex_mesh(2, 3), InterfaceCells::named), height), 8U);
+    }
 }
 
 }  // namespace
