@@ -1,5 +1,6 @@
 #include "core/session/replay.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 
@@ -11,6 +12,7 @@
 #include "core/edit/drag.h"
 #include "core/io/deformation_file.h"
 #include "core/io/mesh_io.h"
+#include "core/mesh/renumbering.h"
 #include "core/session/session_file.h"
 #include "tests/support/mesh_factory.h"
 #include "tests/unit/mesh/torn_meshes.h"
@@ -106,6 +108,24 @@ TEST_F(ReplayTest, ImprovesAndTellsWhatItNotes) {
     EXPECT_TRUE(replay.notes()[0].starts_with("Element "));
     replay.perform(OpenAction{"square.msh"});
     EXPECT_TRUE(replay.notes().empty());
+}
+
+TEST_F(ReplayTest, RenumbersReversedElementsAndGoesBack) {
+    const CurvedMesh plain = square_mesh(3, 2);
+    write_mesh(folder / "reversed.msh", renumbered(plain, [](Index element) { return element % 3 == 1; }));
+    Replay replay(folder);
+    replay.perform(OpenAction{"reversed.msh"});
+    ASSERT_EQ(replay.mesh().topology().reversed_count(), 6);
+    replay.perform(parse_action(to_json_line(ReorientAction{})));
+    EXPECT_EQ(replay.mesh().topology().reversed_count(), 0);
+    EXPECT_EQ(replay.mesh().coordinates(), plain.coordinates());
+    for (Index element = 0; element < plain.topology().element_count(); ++element)
+        EXPECT_TRUE(std::ranges::equal(replay.mesh().topology().element_nodes(element),
+                                       plain.topology().element_nodes(element)));
+    replay.perform(HistoryAction{0});
+    EXPECT_EQ(replay.mesh().topology().reversed_count(), 6);
+    replay.perform(HistoryAction{1});
+    EXPECT_EQ(replay.mesh().topology().reversed_count(), 0);
 }
 
 TEST_F(ReplayTest, TheSameForEveryNumberOfThreads) {

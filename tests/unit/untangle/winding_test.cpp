@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "core/basis/lagrange.h"
+#include "core/edit/drag.h"
 #include "core/mesh/renumbering.h"
 #include "core/quality/element_size.h"
 #include "core/quality/quality.h"
@@ -34,7 +36,11 @@ TEST(ReversedElements, AreJudgedAsIfTheyWereRenumbered) {
         EXPECT_EQ(expected.summary.reversed, 0);
         EXPECT_EQ(found.orientation, Orientation::positive);
         for (std::size_t i = 0; i < expected.elements.size(); ++i) {
-            EXPECT_NEAR(found.elements[i].scaled_jacobian, expected.elements[i].scaled_jacobian, 1e-3);
+            EXPECT_EQ(found.elements[i].scaled_jacobian, expected.elements[i].scaled_jacobian);
+            EXPECT_EQ(found.elements[i].min_lower, expected.elements[i].min_lower);
+            EXPECT_EQ(found.elements[i].min_upper, expected.elements[i].min_upper);
+            EXPECT_EQ(found.elements[i].max_lower, expected.elements[i].max_lower);
+            EXPECT_EQ(found.elements[i].max_upper, expected.elements[i].max_upper);
             EXPECT_EQ(found.elements[i].validity, expected.elements[i].validity);
             EXPECT_EQ(found.elements[i].is_reversed, i % 4 == 1);
         }
@@ -75,6 +81,99 @@ TEST(ReversedElements, DoNotChangeABitOfAWarpNorOfImproving) {
             WarpOptions options;
             options.weighting = weighting;
             EXPECT_EQ(warp(other, target, options).coordinates, warp(mesh, target, options).coordinates);
+        }
+    }
+}
+
+TEST(ReversedElements, DoNotChangeABitOfADrag) {
+    std::mt19937 random(11);
+    for (const CurvedMesh& plain : {square_mesh(3, 3), quad_mesh(3, 2), cube_mesh(2, 2), mixed_cube_mesh(2, 1)}) {
+        const CurvedMesh mesh = shaken(plain, 0.004, random), other = turned(mesh);
+        ASSERT_GT(other.topology().reversed_count(), 0);
+        DraggedSet set;
+        for (const Index node : mesh.topology().boundary_nodes())
+            if (mesh.coordinates()(node, 0) == 1.0) set.nodes.push_back(node);
+        AffineMotion motion;
+        motion.shift = {0.05, 0.02, 0.0};
+        const auto dragged = [&](const CurvedMesh& start) -> Coordinates {
+            Drag drag(std::make_shared<const Warper>(start), set, ResponseKind::translation, Eigen::Vector3d::Zero(),
+                      start, std::make_shared<const QualityReport>(assess_quality(start)));
+            return drag.move(motion);
+        };
+        EXPECT_EQ(dragged(other), dragged(mesh));
+        EXPECT_NE(dragged(mesh), mesh.coordinates());
+    }
+}
+
+/// Where a point of the reference element is in an element of the mesh.
+Eigen::RowVector3d place_of(const CurvedMesh& mesh, Index element, const std::array<double, 3>& point) {
+    const MeshTopology& topology = mesh.topology();
+    const Eigen::RowVector3d reference(point[0], point[1], point[2]);
+    const BasisTable basis = lagrange_basis(topology.element_type(element), reference);
+    Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
+    const auto nodes = topology.element_nodes(element);
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        place += basis.values(0, static_cast<Eigen::Index>(i)) * mesh.coordinates().row(nodes[i]);
+    return place;
+}
+
+TEST(ReversedElements, AreToldInTheNumberingThatTheyHave) {
+    struct Recorder : UntangleObserver {
+        void on_event(const UntangleEvent& event) override {
+            if (const auto* started = std::get_if<untangle_event::Started>(&event)) mesh = started->mesh;
+            if (const auto* certified = std::get_if<untangle_event::PatchCertified>(&event))
+                worst.push_back({certified->worst_element, certified->worst_point});
+            ++events;
+        }
+        const CurvedMesh* mesh = nullptr;
+        std::vector<std::pair<Index, std::array<double, 3>>> worst;
+        int events = 0;
+    };
+    std::mt19937 random(13);
+    std::array<Index, 4> told{};  ///< per dimension: points of reversed elements that exchanging the axes moves
+    for (const CurvedMesh& plain : {square_mesh(4, 3), cube_mesh(2, 2), hex_mesh(2, 2), prism_mesh(2, 2)}) {
+        const CurvedMesh mesh = shaken(plain, 0.14, random), other = turned(mesh);
+        Recorder expected, found;
+        untangle_guaranteed(mesh, {}, &expected);
+        untangle_guaranteed(other, {}, &found);
+        EXPECT_EQ(found.mesh, &other);
+        EXPECT_EQ(found.events, expected.events);
+        ASSERT_EQ(found.worst.size(), expected.worst.size());
+        ASSERT_FALSE(found.worst.empty());
+        for (std::size_t i = 0; i < found.worst.size(); ++i) {
+            const auto& [element, point] = found.worst[i];
+            EXPECT_EQ(element, expected.worst[i].first);
+            // The same point in space, whatever the corners are called.
+            const Eigen::RowVector3d where = place_of(mesh, element, expected.worst[i].second);
+            EXPECT_LT((place_of(other, element, point) - where).norm(), 1e-12);
+            if (other.topology().is_reversed(element) && point[0] != point[1]) ++told[mesh.topology().dimension()];
+        }
+    }
+    EXPECT_GT(told[2], 0);
+    EXPECT_GT(told[3], 0);
+}
+
+TEST(ReversedElements, AreRenumberedWithTheirNegativePartsWhileTheRestStays) {
+    for (const CurvedMesh& plain : {square_mesh(3, 2), quad_mesh(3, 3), cube_mesh(2, 2), hex_mesh(2, 2)}) {
+        const MeshTopology& as_it_was = plain.topology();
+        for (const bool is_negative : {false, true}) {
+            const CurvedMesh mesh = is_negative ? flip_orientation(turned(plain)) : turned(plain);
+            const Reorientation reoriented = reorient(mesh);
+            EXPECT_EQ(reoriented.reversed, mesh.topology().reversed_count());
+            EXPECT_EQ(reoriented.renumbered,
+                      is_negative ? as_it_was.element_count() - reoriented.reversed : reoriented.reversed);
+            const MeshTopology& topology = reoriented.mesh.topology();
+            ASSERT_EQ(topology.blocks().size(), as_it_was.blocks().size());
+            // Renumbered to what it was at first, boundary cells, their tags and entities included.
+            for (std::size_t b = 0; b < topology.blocks().size(); ++b) {
+                EXPECT_EQ(topology.blocks()[b].nodes, as_it_was.blocks()[b].nodes);
+                EXPECT_EQ(topology.blocks()[b].tags, as_it_was.blocks()[b].tags);
+                EXPECT_EQ(topology.blocks()[b].entity_tag, as_it_was.blocks()[b].entity_tag);
+            }
+            EXPECT_EQ(topology.groups().size(), as_it_was.groups().size());
+            for (const ElementQuality& quality : assess_quality(reoriented.mesh).elements)
+                EXPECT_GT(quality.min_lower, 0.0);
+            EXPECT_EQ(find_orientation(reoriented.mesh), Orientation::positive);
         }
     }
 }
