@@ -37,7 +37,10 @@ int note_least(const Options& options, const QualityReport& report, Work& work) 
     const auto below =
         std::count_if(report.elements.begin(), report.elements.end(),
                       [&](const ElementQuality& quality) { return quality.scaled_jacobian < *options.least; });
-    if (below == 0) return validity;
+    if (report.summary.not_assessed > 0)
+        work.note(fmt::format("{} of {} elements were not assessed, so that they are not known to have at least {:g}.",
+                              report.summary.not_assessed, report.elements.size(), *options.least));
+    if (below == 0) return report.summary.not_assessed > 0 ? static_cast<int>(exit_not_valid) : validity;
     work.note(fmt::format("{} of {} elements {} below {:g}; the least scaled Jacobian is {:.4g}.", below,
                           report.elements.size(), below == 1 ? "is" : "are", *options.least, report.summary.min));
     return exit_not_valid;

@@ -98,7 +98,9 @@ void fill_cells(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOp
             if (quality == nullptr) continue;
             const bool is_element = dim == topology.dimension() && dim > 0;
             const bool is_assessed = is_element && quality->elements[element].validity != Validity::not_assessed;
-            jacobian->InsertNextValue(is_assessed ? quality->elements[element].scaled_jacobian : no_jacobian);
+            jacobian->InsertNextValue(is_assessed                    ? quality->elements[element].scaled_jacobian
+                                      : is_element && is_legacy_text ? 0.0  // nothing is known of it
+                                                                     : no_jacobian);
             int state = -1;
             if (is_element) {
                 const Validity proved = quality->elements[element++].validity;

@@ -136,6 +136,10 @@ TEST_F(WindingOnTheCommandLine, PyramidsAmongOthersAreToldAsNotAssessed) {
     EXPECT_EQ(quality["scaled_jacobian"]["valid"], 12);
     EXPECT_EQ(quality["scaled_jacobian"]["not_assessed"], 5);
     EXPECT_TRUE(has_note(quality, "5 pyramids were not assessed")) << quality["notes"];
+    // What was not assessed is not known to have any quality.
+    const ProcessResult least = cli({"quality", mesh, "--json", "--min", "0.01"});
+    EXPECT_EQ(least.status, 3);
+    EXPECT_TRUE(has_note(parse(least), "5 of 17 elements were not assessed")) << least.output;
     const std::string rows = read(table);
     EXPECT_NE(rows.find("\n113,nan,not assessed,-inf,inf,-inf,inf\n"), std::string::npos) << rows;
     // The text of a legacy file, by its cells: 8 hexahedra, 4 tetrahedra, 5 pyramids.
