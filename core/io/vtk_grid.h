@@ -9,11 +9,11 @@ class vtkUnstructuredGrid;
 namespace curvewright {
 
 /// Fills an empty grid with all cells of all dimensions, their tags, and (as field data named "Curvewright...") what is
-/// needed to restore the rest (see vtk_field_data.h). Cells of order 1 become VTK's linear cells, others Lagrange cells.
-/// is_legacy_text: the file will be legacy VTK text, in which VTK cannot read NaN back: ScaledJacobian of the cells of
-/// lower dimension, which have none, is then 1, of elements that were not assessed 0, and missing values of arrays are
-/// 0, of which notes tell. Throws Unsupported for pyramids above order 1 and InvalidInput if the options do not fit the
-/// mesh.
+/// needed to restore the rest (see vtk_field_data.h). Cells of order 1 become VTK's linear cells, others Lagrange
+/// cells. is_legacy_text: the file will be legacy VTK text, in which VTK cannot read NaN back: ScaledJacobian of the
+/// cells of lower dimension, which have none, is then 1, of elements that were not assessed 0, and missing values of
+/// arrays are 0, of which notes tell. Throws Unsupported for pyramids above order 1 and InvalidInput if the options do
+/// not fit the mesh.
 void fill_grid(vtkUnstructuredGrid& grid, const CurvedMesh& mesh, const WriteOptions& options, bool is_legacy_text,
                std::vector<std::string>& notes);
 
