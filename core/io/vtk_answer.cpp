@@ -193,7 +193,7 @@ class AnswerReader {
             if (head.offsets != head.types + 1) fail("its numbers of offsets and cell types do not agree");
             vtkNew<vtkCellArray> cells;
             cells->SetData(offsets, connectivity);
-            grid->SetCells(types, cells);
+            grid->SetCells(types, cells, nullptr, nullptr);  // the other one would look for faces of polyhedra
         }
         read_arrays(*grid->GetPointData(), grid->GetPointData());
         read_arrays(*grid->GetCellData(), grid->GetCellData());

@@ -190,7 +190,7 @@ std::string xml_text(vtkUnstructuredGrid& grid, bool is_text) {
         writer->EncodeAppendedDataOff();
         writer->SetCompressorTypeToZLib();
     }
-    return writer->Write() == 0 ? std::string() : std::move(writer->GetOutputString());
+    return writer->Write() == 0 ? std::string() : writer->GetOutputString();
 }
 
 /// The values of an integer array as one of another type; null if they do not fit.

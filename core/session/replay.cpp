@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/error.h"
+#include "core/base/overloaded.h"
 #include "core/io/deformation_file.h"
 #include "core/io/matched_mesh.h"
 #include "core/mesh/conformity.h"
@@ -13,11 +14,6 @@
 
 namespace curvewright {
 namespace {
-
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
 
 Index find_node(const MeshTopology& topology, NodeTag tag) {
     const auto node = topology.find_node(tag);

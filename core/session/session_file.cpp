@@ -9,17 +9,13 @@
 
 #include "core/base/error.h"
 #include "core/base/json_depth.h"
+#include "core/base/overloaded.h"
 #include "core/io/atomic_file.h"
 
 namespace curvewright {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
 
 // ---------------------------------------------------------------------------------------------------------- writing
 

@@ -65,10 +65,6 @@ void require_valid(const std::vector<ElementQuality>& qualities) {
 
 }  // namespace
 
-const char* to_string(ImproveGoal goal) {
-    return goal == ImproveGoal::jacobian ? "jacobian" : "shape";
-}
-
 double mesh_size(const CurvedMesh& mesh) {
     const Coordinates& x = mesh.coordinates();
     return x.rows() > 0 ? (x.colwise().maxCoeff() - x.colwise().minCoeff()).norm() : 0.0;

@@ -16,7 +16,9 @@ enum class ImproveGoal {
     shape,     ///< the worst mean ratio against the straight-sided elements of the mesh as it was given
 };
 /// "jacobian", "shape".
-const char* to_string(ImproveGoal goal);
+inline const char* to_string(ImproveGoal goal) {
+    return goal == ImproveGoal::jacobian ? "jacobian" : "shape";
+}
 
 /// Options of improve().
 struct ImproveOptions {

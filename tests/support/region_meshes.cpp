@@ -33,8 +33,8 @@ struct Shared {
     bool is_near = false, is_far = false;
 };
 
-std::map<std::vector<Index>, Shared> shared_facets(const CurvedMesh& mesh) {
-    const MeshTopology& topology = mesh.topology();
+std::map<std::vector<Index>, Shared> shared_facets(const MeshTopology& topology,
+                                                   const std::function<bool(Index)>& is_near) {
     std::map<std::vector<Index>, Shared> facets;
     for (Index element = 0; element < topology.element_count(); ++element) {
         const auto& local = reference_element(topology.element_type(element)).facets;
@@ -45,7 +45,7 @@ std::map<std::vector<Index>, Shared> shared_facets(const CurvedMesh& mesh) {
             Shared& shared = facets[key];
             shared.type = local[static_cast<std::size_t>(f)].type;
             shared.nodes = nodes;
-            (mesh.element_center(element)[0] < 0.5 ? shared.is_near : shared.is_far) = true;
+            (is_near(element) ? shared.is_near : shared.is_far) = true;
         }
     }
     return facets;
@@ -54,6 +54,10 @@ std::map<std::vector<Index>, Shared> shared_facets(const CurvedMesh& mesh) {
 }  // namespace
 
 CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells) {
+    return with_regions(mesh, cells, [&mesh](Index element) { return mesh.element_center(element)[0] < 0.5; });
+}
+
+CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells, const std::function<bool(Index)>& is_near) {
     const MeshTopology& topology = mesh.topology();
     const int dim = topology.dimension();
     MeshData data = topology.data();
@@ -67,12 +71,13 @@ CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells) {
         std::array<ElementBlock, 2> parts{ElementBlock{block.type, near_tag, {}, {}},
                                           ElementBlock{block.type, far_tag, {}, {}}};
         for (const ElementTag tag : block.tags) {
-            ElementBlock& part = parts[mesh.element_center(element)[0] < 0.5 ? 0 : 1];
+            ElementBlock& part = parts[is_near(element) ? 0 : 1];
             const auto nodes = topology.element_nodes(element++);
             part.tags.push_back(tag);
             part.nodes.insert(part.nodes.end(), nodes.begin(), nodes.end());
         }
-        for (ElementBlock& part : parts) blocks.push_back(std::move(part));
+        for (ElementBlock& part : parts)
+            if (!part.tags.empty()) blocks.push_back(std::move(part));
     }
     data.entities.push_back({dim, near_tag, {near_tag}, {}, {}});
     data.entities.push_back({dim, far_tag, {far_tag}, {}, {}});
@@ -85,7 +90,7 @@ CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells) {
             data.groups.push_back({dim - 1, interface_tag, "interface"});
         }
         std::int64_t next = highest_tag(data) + 1;
-        for (const auto& [key, shared] : shared_facets(mesh)) {
+        for (const auto& [key, shared] : shared_facets(topology, is_near)) {
             if (!shared.is_near || !shared.is_far) continue;
             blocks.push_back({shared.type, interface_tag, shared.nodes, {{next++}}});
         }

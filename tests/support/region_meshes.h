@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,10 @@ enum class InterfaceCells { none, unnamed, named };
 /// the interface, if there are any, are on an entity of their own, named "interface". pre: no element has its centre at
 /// 0.5.
 CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells);
+/// The same with the elements in "near" that the function says, of any mesh. The elements of a block are sorted by
+/// region.
+CurvedMesh with_regions(const CurvedMesh& mesh, InterfaceCells cells,
+                        const std::function<bool(Index element)>& is_near);
 
 /// The mesh with one more cell on an entity of its own, in the group of that name.
 CurvedMesh with_named_cell(const CurvedMesh& mesh, ElementType type, const std::vector<Index>& nodes,

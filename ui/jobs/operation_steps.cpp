@@ -5,6 +5,7 @@
 #include <QRegularExpression>
 
 #include "core/base/error.h"
+#include "core/base/overloaded.h"
 #include "core/deform/deformation.h"
 #include "core/mesh/conformity.h"
 #include "core/session/replay.h"
@@ -15,11 +16,6 @@
 
 namespace curvewright {
 namespace {
-
-template <class... Functions>
-struct Overloaded : Functions... {
-    using Functions::operator()...;
-};
 
 QString tr(const char* text) {
     return QCoreApplication::translate("curvewright::MeshJobs", text);
