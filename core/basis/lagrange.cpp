@@ -91,12 +91,24 @@ BasisTable lagrange_basis(ElementType type, const Eigen::Ref<const Eigen::Matrix
     return table;
 }
 
-Eigen::MatrixX3d reference_nodes(ElementType type) {
-    const ReferenceElement& element = reference_element(type);
-    Eigen::MatrixX3d points(element.node_count(), 3);
-    for (int node = 0; node < element.node_count(); ++node)
-        for (int d = 0; d < 3; ++d) points(node, d) = static_cast<double>(element.lattice[node][d]) / type.order;
+namespace {
+
+Eigen::MatrixX3d scaled(const std::vector<LatticePoint>& lattice, int degree) {
+    Eigen::MatrixX3d points(static_cast<Eigen::Index>(lattice.size()), 3);
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+        for (int d = 0; d < 3; ++d)
+            points(i, d) = static_cast<double>(lattice[static_cast<std::size_t>(i)][d]) / degree;
     return points;
+}
+
+}  // namespace
+
+Eigen::MatrixX3d lattice_points(Shape shape, int degree) {
+    return scaled(gmsh_node_order({shape, degree}), degree);
+}
+
+Eigen::MatrixX3d reference_nodes(ElementType type) {
+    return scaled(reference_element(type).lattice, type.order);
 }
 
 }  // namespace curvewright

@@ -23,6 +23,9 @@ struct BasisTable {
 /// Throws Unsupported for pyramids, whose basis is rational.
 BasisTable lagrange_basis(ElementType type, const Eigen::Ref<const Eigen::MatrixX3d>& points);
 
+/// The points of the lattice of a degree on a reference element, of any degree: lattice / degree, points × 3.
+Eigen::MatrixX3d lattice_points(Shape shape, int degree);
+
 /// Reference coordinates of the nodes: lattice / order, nodes × 3.
 Eigen::MatrixX3d reference_nodes(ElementType type);
 

@@ -12,103 +12,14 @@
 
 #include "core/base/parallel.h"
 #include "core/basis/lagrange.h"
-#include "core/basis/node_ordering.h"
 #include "core/basis/reference_element.h"
 #include "core/mesh/renumbering.h"
+#include "core/quality/mean_ratio.h"
+#include "core/quality/product_shapes.h"
 #include "core/quality/quality.h"
 
 namespace curvewright {
 namespace {
-
-/// Gradients of the shape functions of an element and of the straight-sided one at the samples.
-struct SampleBasis {
-    BasisTable element, ideal;
-};
-
-/// A squared norm below this is taken for this: what has shrunk to a point is similar to nothing.
-constexpr double smallest_norm = 1e-100;
-
-/// The lattice of samples.
-Eigen::MatrixX3d sample_points(ElementType type) {
-    // 12: more samples of a hexahedron of high order would fill the memory.
-    const bool is_large = dimension(type.shape) == 3 && !is_simplex(type.shape);
-    const int degree = is_large ? std::min(3 * type.order, 12) : 3 * type.order;
-    const auto lattice = gmsh_node_order({type.shape, degree});
-    Eigen::MatrixX3d points(static_cast<Eigen::Index>(lattice.size()), 3);
-    for (Eigen::Index i = 0; i < points.rows(); ++i)
-        for (int d = 0; d < 3; ++d) points(i, d) = static_cast<double>(lattice[i][d]) / degree;
-    return points;
-}
-
-const SampleBasis& sample_basis(ElementType type) {
-    static std::mutex mutex;
-    static std::map<ElementType, SampleBasis> cache;
-    const std::lock_guard lock(mutex);
-    auto [entry, is_new] = cache.try_emplace(type);
-    if (is_new) {
-        const Eigen::MatrixX3d points = sample_points(type);
-        entry->second = {lagrange_basis(type, points), lagrange_basis({type.shape, 1}, points)};
-        entry->second.element.values.resize(0, 0);
-    }
-    return entry->second;
-}
-
-/// The tangents at all samples, one direction each: samples × Dim.
-template <int Dim>
-std::array<Eigen::Matrix<double, Eigen::Dynamic, Dim>, Dim> tangents(const BasisTable& basis,
-                                                                     const Eigen::MatrixX3d& x) {
-    std::array<Eigen::Matrix<double, Eigen::Dynamic, Dim>, Dim> result;
-    for (int k = 0; k < Dim; ++k)
-        result[k] = basis.gradients[k] * x.topRows(basis.gradients[k].cols()).template leftCols<Dim>();
-    return result;
-}
-
-/// det(T)^2 / |T|^6 (2D: det(T) / |T|^2) with the sign of det(T), which orders as the mean ratio does.
-template <int Dim, class Determinant, class SquaredNorm>
-auto power_of_ratio(const Determinant& det, const SquaredNorm& norm) {
-    if constexpr (Dim == 2)
-        return det / norm;
-    else
-        return det * det.abs() / (norm * norm * norm);
-}
-
-template <int Dim>
-double mean_ratio(double power) {
-    return Dim == 2 ? 2.0 * power : 3.0 * std::cbrt(power);
-}
-
-// ------------------------------------------------------------------------------------------------------- ideal varies
-
-template <int Dim>
-double worst_mean_ratio(const SampleBasis& basis, const Eigen::MatrixX3d& x, const Eigen::MatrixX3d& ideal) {
-    using Matrix = Eigen::Matrix<double, Dim, Dim>;
-    const auto of_element = tangents<Dim>(basis.element, x), of_ideal = tangents<Dim>(basis.ideal, ideal);
-    const Eigen::Index samples = of_element[0].rows();
-    const auto ideal_at = [&](Eigen::Index q) {
-        Matrix w;
-        for (int k = 0; k < Dim; ++k) w.col(k) = of_ideal[k].row(q).transpose();
-        return w;
-    };
-    double volume = 0.0;
-    for (Eigen::Index q = 0; q < samples; ++q) volume += ideal_at(q).determinant();
-    double worst = std::numeric_limits<double>::infinity();
-    for (Eigen::Index q = 0; q < samples; ++q) {
-        // Where the ideal is folded against the rest of itself, or flat, nothing is similar to it.
-        const Matrix w = ideal_at(q);
-        if (!(w.determinant() * volume > 0.0)) {
-            worst = std::min(worst, 0.0);
-            continue;
-        }
-        Matrix jacobian;
-        for (int k = 0; k < Dim; ++k) jacobian.col(k) = of_element[k].row(q).transpose();
-        const Matrix t = jacobian * w.inverse();
-        const Eigen::Array<double, 1, 1> det(t.determinant()), norm(std::max(t.squaredNorm(), smallest_norm));
-        worst = std::min(worst, power_of_ratio<Dim>(det, norm).value());
-    }
-    return mean_ratio<Dim>(worst);
-}
-
-// ---------------------------------------------------------------------------------------------------------- simplices
 
 /// On a simplex W is the same everywhere, and J has the degree p - 1: it is computed in a basis of that degree,
 /// multiplied by W^-1, and evaluated at the samples, of several elements at once. Up to order 3 the basis is that of
@@ -144,7 +55,7 @@ SimplexBasis make_simplex_basis(ElementType type) {
         for (Eigen::Index q = 0; q < size; ++q) values.row(q) = monomials(dim, steps(q, 0), steps(q, 1), steps(q, 2));
         to_basis = values.inverse();
     } else {
-        basis.samples = lagrange_basis(lower, sample_points(type)).values;
+        basis.samples = lagrange_basis(lower, lattice_points(type.shape, 3 * type.order)).values;
     }
     const BasisTable at_lattice = lagrange_basis(type, lattice);
     basis.derivatives.resize(dim * size, node_count(type));
@@ -162,17 +73,6 @@ const SimplexBasis& simplex_basis(ElementType type) {
     return entry->second;
 }
 
-/// Some T, rows behind each other in the columns, as power_of_ratio wants it: a value per row of t.
-template <int Dim, class At>
-auto determinant_of(const At& at) {
-    if constexpr (Dim == 2)
-        return at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0);
-    else
-        return at(0, 0) * (at(1, 1) * at(2, 2) - at(1, 2) * at(2, 1)) +
-               at(0, 1) * (at(1, 2) * at(2, 0) - at(1, 0) * at(2, 2)) +
-               at(0, 2) * (at(1, 0) * at(2, 1) - at(1, 1) * at(2, 0));
-}
-
 /// The least power_of_ratio of two elements at once on the lattice of n steps. t: monomials × (Dim² columns of each),
 /// the second element's behind the first's; the same twice for one.
 template <int Dim>
@@ -185,7 +85,7 @@ Eigen::Array2d walk(const Eigen::Ref<const Eigen::MatrixXd>& t, int n) {
             a[m][c] = Pair(t(static_cast<Eigen::Index>(m), c), t(static_cast<Eigen::Index>(m), squares + c));
     Pair least = Pair::Constant(std::numeric_limits<double>::infinity());
     const auto judge = [&least](const std::array<Pair, squares>& v) {
-        Pair norm = Pair::Constant(smallest_norm);
+        Pair norm = Pair::Constant(smallest_squared_norm);
         for (const Pair& value : v) norm += value * value;
         const Pair det = determinant_of<Dim>([&v](int i, int j) -> const Pair& { return v[Dim * i + j]; });
         const Pair power = power_of_ratio<Dim>(det, norm);
@@ -287,7 +187,7 @@ class SimplexShapes {
         // A derivative is less than some 4 p² times what is added to the nodes.
         const double change = 4.0 * order_ * order_ * bend * inverse.norm();
         if (!(change <= rounding * t.cwiseAbs().maxCoeff())) return false;
-        const Eigen::Array<double, 1, 1> det(t.determinant()), norm(std::max(t.squaredNorm(), smallest_norm));
+        const Eigen::Array<double, 1, 1> det(t.determinant()), norm(std::max(t.squaredNorm(), smallest_squared_norm));
         ratio = mean_ratio<Dim>(power_of_ratio<Dim>(det, norm).value());
         return true;
     }
@@ -308,7 +208,7 @@ class SimplexShapes {
     /// t: samples × Dim².
     template <class Matrices>
     static double least_power(const Matrices& t) {
-        const Eigen::ArrayXd norm = t.rowwise().squaredNorm().array().max(smallest_norm);
+        const Eigen::ArrayXd norm = t.rowwise().squaredNorm().array().max(smallest_squared_norm);
         const Eigen::ArrayXd det = determinant_of<Dim>([&t](int i, int j) { return t.col(Dim * i + j).array(); });
         return power_of_ratio<Dim>(det, norm).minCoeff();
     }
@@ -327,12 +227,19 @@ class SimplexShapes {
 
 /// The elements from begin to end, which are all of a type.
 template <int Dim>
-void compute_simplices(ElementType type, const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
-                       std::size_t begin, std::size_t end, std::vector<double>& worst) {
-    SimplexShapes<Dim> shapes(type, topology, x, ideal);
-    for (std::size_t i = begin; i < end; i += SimplexShapes<Dim>::portion)
-        shapes.compute(static_cast<Index>(i), std::min(static_cast<Eigen::Index>(end - i), SimplexShapes<Dim>::portion),
-                       &worst[i]);
+void compute_alike(ElementType type, const MeshTopology& topology, const Coordinates& x, const Coordinates& ideal,
+                   std::size_t begin, std::size_t end, std::vector<double>& worst) {
+    if (type.shape == Shape::pyramid) {
+        std::fill(&worst[begin], &worst[end - 1] + 1, std::numeric_limits<double>::quiet_NaN());
+    } else if (is_simplex(type.shape)) {
+        SimplexShapes<Dim> shapes(type, topology, x, ideal);
+        constexpr auto portion = SimplexShapes<Dim>::portion;
+        for (std::size_t i = begin; i < end; i += portion)
+            shapes.compute(static_cast<Index>(i), std::min(static_cast<Eigen::Index>(end - i), portion), &worst[i]);
+    } else {
+        ProductShapes<Dim> shapes(type, topology, x, ideal);
+        for (std::size_t i = begin; i < end; ++i) worst[i] = shapes.worst(static_cast<Index>(i));
+    }
 }
 
 }  // namespace
@@ -340,30 +247,20 @@ void compute_simplices(ElementType type, const MeshTopology& topology, const Coo
 std::vector<double> element_shapes(const CurvedMesh& mesh, const Coordinates& ideal, const TaskContext& context) {
     require_assessable(mesh);
     // Numbered alike, so that not a bit depends on the numbering.
-    const CurvedMesh alike = numbered_alike(mesh), ideal_mesh = alike.with_coordinates(ideal);
+    const NumberedAlike numbered(mesh);
+    const CurvedMesh& alike = numbered.mesh();
     const MeshTopology& topology = alike.topology();
     std::vector<double> worst(static_cast<std::size_t>(topology.element_count()));
     parallel_for(worst.size(), 64, context, {}, [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i) {
-            const auto element = static_cast<Index>(i);
-            const ElementType type = topology.element_type(element);
-            if (type.shape == Shape::pyramid) {
-                worst[i] = std::numeric_limits<double>::quiet_NaN();
-                continue;
-            }
-            if (is_simplex(type.shape)) {
-                std::size_t last = i + 1;
-                while (last < end && topology.element_type(static_cast<Index>(last)) == type) ++last;
-                if (topology.dimension() == 2)
-                    compute_simplices<2>(type, topology, alike.coordinates(), ideal, i, last, worst);
-                else
-                    compute_simplices<3>(type, topology, alike.coordinates(), ideal, i, last, worst);
-                i = last - 1;
-                continue;
-            }
-            const SampleBasis& basis = sample_basis(type);
-            const Eigen::MatrixX3d x = alike.element_coordinates(element), w = ideal_mesh.element_coordinates(element);
-            worst[i] = topology.dimension() == 2 ? worst_mean_ratio<2>(basis, x, w) : worst_mean_ratio<3>(basis, x, w);
+        for (std::size_t first = begin; first < end;) {
+            const ElementType type = topology.element_type(static_cast<Index>(first));
+            std::size_t last = first + 1;
+            while (last < end && topology.element_type(static_cast<Index>(last)) == type) ++last;
+            if (topology.dimension() == 2)
+                compute_alike<2>(type, topology, alike.coordinates(), ideal, first, last, worst);
+            else
+                compute_alike<3>(type, topology, alike.coordinates(), ideal, first, last, worst);
+            first = last;
         }
     });
     return worst;
