@@ -61,15 +61,8 @@ TEST(ShapeQuality, TheIdealOfAQuadrilateralVariesOverTheElement) {
 /// The worst of the definition at the samples, from the shape functions' own derivatives.
 double by_definition(const CurvedMesh& mesh, const CurvedMesh& ideal, Index element) {
     const ElementType type = mesh.topology().element_type(element);
-    const int dim = dimension(type.shape);
-    const int n = 3 * type.order;
-    std::vector<Eigen::RowVector3d> lattice;
-    for (int i = 0; i <= n; ++i)
-        for (int j = 0; i + j <= n; ++j)
-            for (int k = 0; i + j + k <= (dim == 3 ? n : i + j); ++k)
-                lattice.push_back(Eigen::RowVector3d(i, j, k) / n);
-    Eigen::MatrixX3d points(static_cast<Eigen::Index>(lattice.size()), 3);
-    for (std::size_t i = 0; i < lattice.size(); ++i) points.row(static_cast<Eigen::Index>(i)) = lattice[i];
+    const int dim = dimension(type.shape), corners = node_count({type.shape, 1});
+    const Eigen::MatrixX3d points = lattice_points(type.shape, 3 * type.order);
     const BasisTable basis = lagrange_basis(type, points), straight = lagrange_basis({type.shape, 1}, points);
     const Eigen::MatrixX3d x = mesh.element_coordinates(element), w = ideal.element_coordinates(element);
     double worst = 2.0;
@@ -77,7 +70,7 @@ double by_definition(const CurvedMesh& mesh, const CurvedMesh& ideal, Index elem
         Eigen::MatrixXd of_element(dim, dim), of_ideal(dim, dim);
         for (int k = 0; k < dim; ++k) {
             of_element.col(k) = (basis.gradients[k].row(q) * x).head(dim).transpose();
-            of_ideal.col(k) = (straight.gradients[k].row(q) * w.topRows(dim + 1)).head(dim).transpose();
+            of_ideal.col(k) = (straight.gradients[k].row(q) * w.topRows(corners)).head(dim).transpose();
         }
         const Eigen::MatrixXd t = of_element * of_ideal.inverse();
         const double det = t.determinant(), power = std::pow(std::abs(det), 2.0 / dim);
@@ -107,6 +100,23 @@ TEST(ShapeQuality, IsTheWorstOfTheSamplesOfEverySimplex) {
                 const std::vector<double> shapes = element_shapes(mesh, ideal.coordinates());
                 for (Index element = 0; element < mesh.topology().element_count(); ++element)
                     EXPECT_NEAR(shapes[element], by_definition(mesh, ideal, element), 1e-9);
+            }
+}
+
+TEST(ShapeQuality, IsTheWorstOfTheSamplesOfEveryQuadrilateralHexahedronAndPrism) {
+    std::mt19937 random(4);
+    for (int order = 1; order <= 4; ++order)
+        for (const CurvedMesh& linear : {testing::quad_mesh(3, 1), testing::hex_mesh(2, 1), testing::prism_mesh(2, 1)})
+            for (const double size : {1.0, 1e-60}) {
+                SCOPED_TRACE(name(linear.topology().element_type(0)) + std::to_string(order));
+                const CurvedMesh straight = testing::with_shaken_corners(linear, 0.05, order, random);
+                Coordinates x = testing::shaken(straight, 0.1 / order, random).coordinates();
+                x.col(0).array() += 2.0;
+                const CurvedMesh mesh = straight.with_coordinates(x);
+                const std::vector<double> shapes =
+                    element_shapes(mesh.with_coordinates(size * x), size * straight.coordinates());
+                for (Index element = 0; element < mesh.topology().element_count(); ++element)
+                    EXPECT_NEAR(shapes[element], by_definition(mesh, straight, element), 1e-9);
             }
 }
 
